@@ -1,0 +1,128 @@
+//! What can go wrong, as values: every message names the file, the field, the value and the mend.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// One thing wrong with the input.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// The file it stands in.
+    pub file: PathBuf,
+    /// Path of the field inside the file, such as `arm.dh.links[1].mass`; empty where the whole file is meant.
+    pub field: String,
+    /// What is wrong, with the offending value.
+    pub problem: String,
+    /// What to write instead.
+    pub mend: String,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.file.display())?;
+        if !self.field.is_empty() {
+            write!(f, ": {}", self.field)?;
+        }
+        write!(f, ": {}; {}", self.problem, self.mend)
+    }
+}
+
+/// Collects faults so that a user sees all of them at once.
+#[derive(Clone, Debug)]
+pub struct Faults {
+    file: PathBuf,
+    list: Vec<Fault>,
+}
+
+impl Faults {
+    /// An empty collection whose faults will name `file`.
+    pub fn of(file: &Path) -> Self {
+        Self { file: file.to_path_buf(), list: Vec::new() }
+    }
+
+    /// The file that new faults name.
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// Adds a fault in this collection's file.
+    pub fn push(&mut self, field: impl Into<String>, problem: impl Into<String>, mend: impl Into<String>) {
+        let file = self.file.clone();
+        self.push_in(&file, field, problem, mend);
+    }
+
+    /// Adds a fault in another file, such as a URDF or CSV that the specification names.
+    pub fn push_in(
+        &mut self,
+        file: &Path,
+        field: impl Into<String>,
+        problem: impl Into<String>,
+        mend: impl Into<String>,
+    ) {
+        self.list.push(Fault {
+            file: file.to_path_buf(),
+            field: field.into(),
+            problem: problem.into(),
+            mend: mend.into(),
+        });
+    }
+
+    /// True while nothing is wrong.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// `Ok(value)` while nothing is wrong, all faults otherwise.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with every fault collected so far.
+    pub fn finish<T>(self, value: T) -> Result<T, Error> {
+        if self.list.is_empty() { Ok(value) } else { Err(Error::Input(self.list)) }
+    }
+
+    /// The collected faults as an error.
+    pub fn into_error(self) -> Error {
+        Error::Input(self.list)
+    }
+}
+
+/// Why a stage could not deliver.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The input is at fault: exit code 2.
+    #[error("{}", list(.0))]
+    Input(Vec<Fault>),
+    /// Generated files on disk differ from what the specification gives: exit code 1.
+    #[error("{path} is not what its specification gives; run `{command}`", path = path.display())]
+    Stale {
+        /// The file that differs or is missing.
+        path: PathBuf,
+        /// The command that mends it.
+        command: String,
+    },
+    /// A defect of Gramforge itself: exit code 3.
+    #[error("internal error: {0}; please report it with the specification")]
+    Internal(String),
+}
+
+impl Error {
+    /// The process exit code that stands for this error: 1 check failed, 2 bad input, 3 internal.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Error::Stale { .. } => 1,
+            Error::Input(_) => 2,
+            Error::Internal(_) => 3,
+        }
+    }
+
+    /// A single fault as an error.
+    pub fn input(file: &Path, field: &str, problem: impl Into<String>, mend: impl Into<String>) -> Self {
+        let mut faults = Faults::of(file);
+        faults.push(field, problem, mend);
+        faults.into_error()
+    }
+}
+
+fn list(faults: &[Fault]) -> String {
+    let lines: Vec<String> = faults.iter().map(Fault::to_string).collect();
+    lines.join("\n")
+}

@@ -1,0 +1,2 @@
+//! The `gramforge` command.
+fn main() {}
