@@ -1,4 +1,6 @@
 //! Gramforge: an offline generator of certified reduced robot dynamics.
 pub mod arm;
+pub mod dynamics;
 pub mod error;
+pub mod lagrangian;
 pub mod spec;

@@ -1,0 +1,139 @@
+//! The expansion: sample D and G on a tensor grid, transform, differentiate for h.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::Lagrangian;
+use super::coefficients::{Entry, distinct};
+use super::function::{Function, MAX_JOINTS};
+use super::transform::{Axis, grid_point, grid_size, transform};
+use crate::arm::{Arm, JointKind};
+use crate::dynamics::{gravity, mass_matrix};
+
+/// What is below this fraction of the largest coefficient is rounding error of the transform.
+const NEGLIGIBLE: f64 = 1e-12;
+
+/// A combination by function rather than by index.
+pub type Expansion = BTreeMap<Function, f64>;
+
+/// Expands the exact model (1) of `arm` over the harmonic dictionary.
+///
+/// In each revolute joint d_ij is a trigonometric polynomial of degree ≤ 2 and g_i of degree ≤ 1, in each
+/// prismatic joint both are polynomials of degree ≤ 2, so sampling and inverting the transform is exact
+/// to rounding. h_ijk = ½(∂d_ij/∂q_k + ∂d_ik/∂q_j − ∂d_jk/∂q_i).
+pub fn expand(arm: &Arm) -> Lagrangian {
+    let n = arm.dof();
+    let d = expand_mass_matrix(arm);
+    let g = expand_gravity(arm);
+    let mut entries = Vec::new();
+    for i in 0..n {
+        for j in i..n {
+            entries.push((Entry::D(i, j), d[i][j].clone()));
+        }
+    }
+    let largest_d = largest(d.iter().flatten());
+    for i in 0..n {
+        for j in 0..n {
+            for k in j..n {
+                entries.push((Entry::H(i, j, k), christoffel(&d, i, j, k, NEGLIGIBLE * largest_d)));
+            }
+        }
+    }
+    entries.extend(g.into_iter().enumerate().map(|(i, g)| (Entry::G(i), g)));
+    distinct(n, entries)
+}
+
+fn expand_mass_matrix(arm: &Arm) -> Vec<Vec<Expansion>> {
+    let n = arm.dof();
+    // D does not depend on the first joint.
+    let axes: Vec<Axis> = arm
+        .joints
+        .iter()
+        .enumerate()
+        .map(|(j, joint)| if j == 0 { Axis::constant() } else { Axis::new(joint.kind, 2) })
+        .collect();
+    let samples = sample(&axes, |q| mass_matrix(arm, q).concat());
+    let columns: Vec<Vec<_>> = (0..n * n)
+        .into_par_iter()
+        .map(|entry| {
+            if entry / n > entry % n {
+                return Vec::new();
+            }
+            let column: Vec<f64> = samples.iter().map(|sample| sample[entry]).collect();
+            collect(arm, &axes, &column)
+        })
+        .collect();
+    let scale = columns.iter().flatten().map(|(_, k)| k.abs()).fold(0.0, f64::max);
+    let upper: Vec<Expansion> = columns.into_iter().map(|c| significant(c, NEGLIGIBLE * scale)).collect();
+    (0..n).map(|i| (0..n).map(|j| upper[i.min(j) * n + i.max(j)].clone()).collect()).collect()
+}
+
+fn expand_gravity(arm: &Arm) -> Vec<Expansion> {
+    let axes: Vec<Axis> = arm.joints.iter().map(|joint| Axis::new(joint.kind, 1)).collect();
+    let samples = sample(&axes, |q| gravity(arm, q));
+    let columns: Vec<Vec<_>> = (0..arm.dof())
+        .map(|i| collect(arm, &axes, &samples.iter().map(|sample| sample[i]).collect::<Vec<_>>()))
+        .collect();
+    let scale = columns.iter().flatten().map(|(_, k)| k.abs()).fold(0.0, f64::max);
+    columns.into_iter().map(|c| significant(c, NEGLIGIBLE * scale)).collect()
+}
+
+/// Values of `f` on the grid, in grid order.
+fn sample(axes: &[Axis], f: impl Fn(&[f64]) -> Vec<f64> + Sync) -> Vec<Vec<f64>> {
+    (0..grid_size(axes))
+        .into_par_iter()
+        .map(|index| {
+            let point = grid_point(axes, index);
+            let q: Vec<f64> = axes.iter().zip(point).map(|(axis, k)| axis.nodes[k]).collect();
+            f(&q)
+        })
+        .collect()
+}
+
+/// The real canonical terms of a transformed sample array.
+fn collect(arm: &Arm, axes: &[Axis], samples: &[f64]) -> Vec<(Function, f64)> {
+    let mut terms = Vec::new();
+    for (index, (re, im)) in transform(axes, samples).into_iter().enumerate() {
+        let mut kappa = [0; MAX_JOINTS];
+        let mut power = [0; MAX_JOINTS];
+        for (j, (axis, k)) in axes.iter().zip(grid_point(axes, index)).enumerate() {
+            match arm.joints[j].kind {
+                JointKind::Revolute => kappa[j] = axis.index[k],
+                JointKind::Prismatic => power[j] = axis.index[k].unsigned_abs(),
+            }
+        }
+        // c e^{iκq} and its conjugate partner at −κ together make 2 Re c cos(κq) − 2 Im c sin(κq).
+        match kappa.iter().find(|&&k| k != 0) {
+            None => terms.push((Function { kappa, power, sine: false }, re)),
+            Some(&first) if first > 0 => {
+                terms.push((Function { kappa, power, sine: false }, 2.0 * re));
+                terms.push((Function { kappa, power, sine: true }, -2.0 * im));
+            }
+            Some(_) => {}
+        }
+    }
+    terms
+}
+
+fn significant(terms: Vec<(Function, f64)>, threshold: f64) -> Expansion {
+    terms.into_iter().filter(|(_, k)| k.abs() > threshold).collect()
+}
+
+fn largest<'a>(expansions: impl Iterator<Item = &'a Expansion>) -> f64 {
+    expansions.flat_map(|e| e.values()).fold(0.0, |sofar, k| k.abs().max(sofar))
+}
+
+/// h_ijk by exact differentiation; cancellations below `threshold` are dropped.
+fn christoffel(d: &[Vec<Expansion>], i: usize, j: usize, k: usize, threshold: f64) -> Expansion {
+    let mut sum = Expansion::new();
+    for (expansion, joint, factor) in [(&d[i][j], k, 0.5), (&d[i][k], j, 0.5), (&d[j][k], i, -0.5)] {
+        for (function, value) in expansion {
+            if let Some((derivative, slope)) = function.derivative(joint) {
+                *sum.entry(derivative).or_insert(0.0) += factor * slope * value;
+            }
+        }
+    }
+    sum.retain(|_, value| value.abs() > threshold);
+    sum
+}

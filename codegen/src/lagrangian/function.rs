@@ -1,0 +1,141 @@
+//! The canonical functions ψ: cos(κ·q) and sin(κ·q), times powers of the prismatic coordinates.
+
+use std::cmp::Ordering;
+use std::fmt;
+
+/// Most joints an arm may have.
+pub const MAX_JOINTS: usize = 8;
+
+/// One function ψ(q) = Π_j q_j^power_j · (cos or sin)(κ·q).
+///
+/// Holds: the first nonzero entry of κ is positive; κ = 0 goes with the cosine; κ_j = 0 for prismatic
+/// joints and power_j = 0 for revolute ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Function {
+    /// κ, by joint.
+    pub kappa: [i8; MAX_JOINTS],
+    /// Exponents of the prismatic coordinates, by joint.
+    pub power: [u8; MAX_JOINTS],
+    /// True for the sine.
+    pub sine: bool,
+}
+
+impl Function {
+    /// The constant 1.
+    pub const ONE: Self = Self { kappa: [0; MAX_JOINTS], power: [0; MAX_JOINTS], sine: false };
+
+    /// Canonical form of Π q^power · trig(κ·q): the function and the sign that the flip of κ costs.
+    /// `None` where the function is sin 0 = 0.
+    pub fn canonical(kappa: [i8; MAX_JOINTS], power: [u8; MAX_JOINTS], sine: bool) -> Option<(Self, f64)> {
+        match kappa.iter().find(|&&k| k != 0) {
+            None if sine => None,
+            Some(&first) if first < 0 => {
+                let sign = if sine { -1.0 } else { 1.0 };
+                Some((Self { kappa: kappa.map(|k| -k), power, sine }, sign))
+            }
+            _ => Some((Self { kappa, power, sine }, 1.0)),
+        }
+    }
+
+    /// ∂ψ/∂q_k as (function, factor); `None` where it vanishes. For a prismatic joint the factor is
+    /// the exponent, for a revolute one ±κ_k.
+    pub fn derivative(&self, k: usize) -> Option<(Self, f64)> {
+        let mut out = *self;
+        if self.power[k] > 0 {
+            out.power[k] -= 1;
+            return Some((out, f64::from(self.power[k])));
+        }
+        if self.kappa[k] == 0 {
+            return None;
+        }
+        out.sine = !self.sine;
+        let sign = if self.sine { 1.0 } else { -1.0 };
+        Some((out, sign * f64::from(self.kappa[k])))
+    }
+
+    /// ψ(q); joints beyond the slice count as 0.
+    pub fn evaluate(&self, q: &[f64]) -> f64 {
+        let mut angle = 0.0;
+        let mut monomial = 1.0;
+        for ((&q, &k), &power) in q.iter().zip(&self.kappa).zip(&self.power) {
+            angle += f64::from(k) * q;
+            for _ in 0..power {
+                monomial *= q;
+            }
+        }
+        monomial * if self.sine { libm::sin(angle) } else { libm::cos(angle) }
+    }
+
+    /// A name that is an identifier: `one`, `cos_q2_q3`, `sin_q2_m2q3`, `q3p2_cos_q2`; `m` stands for minus.
+    pub fn identifier(&self) -> String {
+        let mut parts = Vec::new();
+        for (j, &power) in self.power.iter().enumerate() {
+            match power {
+                0 => {}
+                1 => parts.push(format!("q{}", j + 1)),
+                _ => parts.push(format!("q{}p{power}", j + 1)),
+            }
+        }
+        if self.kappa.iter().any(|&k| k != 0) {
+            parts.push(if self.sine { "sin" } else { "cos" }.to_string());
+            for (j, &k) in self.kappa.iter().enumerate().filter(|&(_, &k)| k != 0) {
+                let sign = if k < 0 { "m" } else { "" };
+                let size = if k.abs() == 1 { String::new() } else { k.abs().to_string() };
+                parts.push(format!("{sign}{size}q{}", j + 1));
+            }
+        }
+        if parts.is_empty() { "one".to_string() } else { parts.join("_") }
+    }
+
+    /// Sum of |κ| and of the exponents.
+    fn degree(&self) -> u32 {
+        let turns: u32 = self.kappa.iter().map(|k| u32::from(k.unsigned_abs())).sum();
+        turns + self.power.iter().map(|&p| u32::from(p)).sum::<u32>()
+    }
+}
+
+/// By degree, then κ with its larger leading entries first, then powers, cosine before sine.
+impl Ord for Function {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.degree()
+            .cmp(&other.degree())
+            .then_with(|| other.kappa.cmp(&self.kappa))
+            .then_with(|| other.power.cmp(&self.power))
+            .then_with(|| self.sine.cmp(&other.sine))
+    }
+}
+
+impl PartialOrd for Function {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// As a formula: `1`, `cos(q2 + q3)`, `q3^2 sin(q2 - 2 q3)`.
+impl fmt::Display for Function {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut parts = Vec::new();
+        for (j, &power) in self.power.iter().enumerate() {
+            match power {
+                0 => {}
+                1 => parts.push(format!("q{}", j + 1)),
+                _ => parts.push(format!("q{}^{power}", j + 1)),
+            }
+        }
+        let mut angle = String::new();
+        for (j, &k) in self.kappa.iter().enumerate().filter(|&(_, &k)| k != 0) {
+            let sign = match (angle.is_empty(), k < 0) {
+                (true, false) => "",
+                (true, true) => "-",
+                (false, false) => " + ",
+                (false, true) => " - ",
+            };
+            let size = if k.abs() == 1 { String::new() } else { format!("{} ", k.abs()) };
+            angle.push_str(&format!("{sign}{size}q{}", j + 1));
+        }
+        if !angle.is_empty() {
+            parts.push(format!("{}({angle})", if self.sine { "sin" } else { "cos" }));
+        }
+        if parts.is_empty() { f.write_str("1") } else { f.write_str(&parts.join(" ")) }
+    }
+}

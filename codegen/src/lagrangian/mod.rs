@@ -1,0 +1,45 @@
+//! The Lagrangian model as linear combinations: every d_ij, h_ijk and g_i is Σ_l k_l ψ_l(q).
+
+mod coefficients;
+mod expand;
+mod function;
+mod transform;
+
+pub use coefficients::{Coefficient, Entry, Place};
+pub use expand::{Expansion, expand};
+pub use function::{Function, MAX_JOINTS};
+
+/// A linear combination Σ k_l ψ_l: pairs (index l into [`Lagrangian::functions`], k_l), by ascending l, without zeros.
+pub type Combination = Vec<(usize, f64)>;
+
+/// The exact model of an arm over the harmonic dictionary.
+///
+/// Holds: `functions` is sorted and has no duplicates, the constant first; every entry of D, h and G
+/// that is not identically zero is a place of exactly one coefficient; no two coefficients are equal up
+/// to sign.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lagrangian {
+    /// Number of joints n.
+    pub dof: usize,
+    /// The p functions ψ_l that occur.
+    pub functions: Vec<Function>,
+    /// The r distinct coefficients, d before h before g.
+    pub coefficients: Vec<Coefficient>,
+}
+
+impl Lagrangian {
+    /// Nonzero terms over the distinct coefficients.
+    pub fn terms(&self) -> usize {
+        self.coefficients.iter().map(|c| c.terms.len()).sum()
+    }
+
+    /// Values of all ψ at `q`.
+    pub fn evaluate_functions(&self, q: &[f64]) -> Vec<f64> {
+        self.functions.iter().map(|psi| psi.evaluate(q)).collect()
+    }
+}
+
+/// Value of a combination, given the values of the functions.
+pub fn evaluate(terms: &[(usize, f64)], psi: &[f64]) -> f64 {
+    terms.iter().fold(0.0, |sum, &(l, k)| sum + k * psi[l])
+}
