@@ -1,0 +1,55 @@
+//! What a graph costs.
+
+use std::collections::BTreeSet;
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::{Graph, Node};
+
+/// Operations of one evaluation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Operations {
+    /// Multiplications.
+    pub mul: usize,
+    /// Additions, subtractions and negations.
+    pub add: usize,
+    /// Joints of which sine or cosine is taken.
+    pub trig_pairs: usize,
+}
+
+impl Operations {
+    /// Multiplications and additions together.
+    pub fn arithmetic(&self) -> usize {
+        self.mul + self.add
+    }
+}
+
+impl Graph {
+    /// Counts the operations of one evaluation.
+    pub fn operations(&self) -> Operations {
+        let mut count = Operations::default();
+        let mut turned = BTreeSet::new();
+        for node in &self.nodes {
+            match *node {
+                Node::Mul(..) => count.mul += 1,
+                Node::Add(..) | Node::Sub(..) | Node::Neg(_) => count.add += 1,
+                Node::Sin(joint) | Node::Cos(joint) => {
+                    turned.insert(joint);
+                }
+                Node::Input(_) | Node::Constant(_) => {}
+            }
+        }
+        count.trig_pairs = turned.len();
+        count
+    }
+
+    /// How often each node is used, by other nodes or as an output.
+    pub fn uses(&self) -> Vec<usize> {
+        let mut uses = vec![0; self.nodes.len()];
+        for id in self.nodes.iter().flat_map(Node::operands).chain(self.outputs.iter().copied()) {
+            uses[id] += 1;
+        }
+        uses
+    }
+}

@@ -1,0 +1,25 @@
+//! Straight-line expression graph: built with ordinary operators, folded and shared on the way, counted, interpreted.
+
+mod build;
+mod count;
+mod interpret;
+mod node;
+
+pub use build::{Builder, Expr};
+pub use count::Operations;
+pub use node::{Name, Node, NodeId, Variable};
+
+/// A finished graph.
+///
+/// Holds: operands come before the nodes that use them; no two nodes are equal; no node is a constant
+/// expression, a sum with 0, a product with 0, 1 or −1, or a double negation; every node is reachable
+/// from an output.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Graph {
+    /// The nodes in order of evaluation.
+    pub nodes: Vec<Node>,
+    /// Names of nodes, parallel to `nodes`.
+    pub names: Vec<Option<Name>>,
+    /// The results, in the order the caller gave them.
+    pub outputs: Vec<NodeId>,
+}

@@ -1,0 +1,70 @@
+//! Nodes of the graph.
+
+/// Index of a node in its graph.
+pub type NodeId = usize;
+
+/// An input of the passivity torque; joints from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Variable {
+    /// Joint position q_j, rad or m.
+    Q(usize),
+    /// Joint velocity q̇_j.
+    Qd(usize),
+    /// Reference velocity v_r,j.
+    Vr(usize),
+    /// Reference acceleration a_r,j.
+    Ar(usize),
+}
+
+/// One operation or leaf. Constants are kept by their bits, so that nodes can be compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Node {
+    /// An input.
+    Input(Variable),
+    /// sin q_j.
+    Sin(usize),
+    /// cos q_j.
+    Cos(usize),
+    /// A finite constant, by its bits.
+    Constant(u64),
+    /// a + b.
+    Add(NodeId, NodeId),
+    /// a − b.
+    Sub(NodeId, NodeId),
+    /// a · b.
+    Mul(NodeId, NodeId),
+    /// −a.
+    Neg(NodeId),
+}
+
+impl Node {
+    /// The operands, none to two.
+    pub fn operands(&self) -> impl Iterator<Item = NodeId> + use<> {
+        let (first, second) = match *self {
+            Node::Add(a, b) | Node::Sub(a, b) | Node::Mul(a, b) => (Some(a), Some(b)),
+            Node::Neg(a) => (Some(a), None),
+            Node::Input(_) | Node::Sin(_) | Node::Cos(_) | Node::Constant(_) => (None, None),
+        };
+        first.into_iter().chain(second)
+    }
+
+    /// The same node over renumbered operands.
+    pub(super) fn renumbered(self, new: impl Fn(NodeId) -> NodeId) -> Self {
+        match self {
+            Node::Add(a, b) => Node::Add(new(a), new(b)),
+            Node::Sub(a, b) => Node::Sub(new(a), new(b)),
+            Node::Mul(a, b) => Node::Mul(new(a), new(b)),
+            Node::Neg(a) => Node::Neg(new(a)),
+            leaf => leaf,
+        }
+    }
+}
+
+/// The name of a node in generated code.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Name {
+    /// An identifier.
+    pub text: String,
+    /// True where the node gets a line of its own even if it is used once.
+    pub own_line: bool,
+}

@@ -1,0 +1,72 @@
+//! The reduction: which ψ functions a model keeps, and with which parameters.
+
+mod exact;
+mod gram_schmidt;
+mod samples;
+mod shared;
+
+pub use exact::exact;
+pub use gram_schmidt::{GramSchmidt, Pick};
+pub use samples::Samples;
+pub use shared::shared;
+
+use crate::lagrangian::{Coefficient, Combination, Entry, Lagrangian};
+use crate::measure::Measure;
+
+/// A model of the same structure (1) with simplified coefficients.
+///
+/// Holds: `combinations` and `simplified` run parallel to [`Lagrangian::coefficients`]; what is not
+/// simplified is the exact combination.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reduced {
+    /// The kept functions u_1 … u_ξ in the order of selection, as indices into [`Lagrangian::functions`];
+    /// empty for the exact model.
+    pub selected: Vec<usize>,
+    /// α̂_m by index.
+    pub combinations: Vec<Combination>,
+    /// Whether α̂_m differs in form from α_m.
+    pub simplified: Vec<bool>,
+}
+
+impl Reduced {
+    /// The residual α_m − α̂_m of coefficient `m` as one combination.
+    pub fn residual(&self, lagrangian: &Lagrangian, m: usize) -> Combination {
+        let (exact, kept) = (&lagrangian.coefficients[m].terms, &self.combinations[m]);
+        let mut out = Combination::new();
+        let (mut a, mut b) = (exact.iter().peekable(), kept.iter().peekable());
+        loop {
+            let (l, value) = match (a.peek(), b.peek()) {
+                (Some(&&(la, ka)), Some(&&(lb, kb))) => match la.cmp(&lb) {
+                    std::cmp::Ordering::Less => (a.next(), (la, ka)).1,
+                    std::cmp::Ordering::Greater => (b.next(), (lb, -kb)).1,
+                    std::cmp::Ordering::Equal => {
+                        a.next();
+                        b.next();
+                        (la, ka - kb)
+                    }
+                },
+                (Some(&&(la, ka)), None) => (a.next(), (la, ka)).1,
+                (None, Some(&&(lb, kb))) => (b.next(), (lb, -kb)).1,
+                (None, None) => break,
+            };
+            if value != 0.0 {
+                out.push((l, value));
+            }
+        }
+        out
+    }
+}
+
+/// Weight w_m of equation (2): the mean square of what multiplies α_m, summed over the places where it stands.
+pub fn weight(coefficient: &Coefficient, measure: &Measure) -> f64 {
+    let acceleration = &measure.acceleration_square;
+    let velocity = &measure.velocity_square;
+    let of = |entry: Entry| match entry {
+        Entry::D(i, j) if i == j => acceleration[i],
+        Entry::D(i, j) => acceleration[i] + acceleration[j],
+        Entry::H(_, j, k) if j == k => velocity[j][j],
+        Entry::H(_, j, k) => 2.0 * velocity[j][k],
+        Entry::G(_) => 1.0,
+    };
+    coefficient.places.iter().map(|place| of(place.entry)).sum()
+}
