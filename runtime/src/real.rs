@@ -58,7 +58,7 @@ macro_rules! real {
                 $sqrt(self)
             }
             fn abs(self) -> Self {
-                if self < 0.0 { -self } else { self }
+                <$t>::abs(self)
             }
             fn is_finite(self) -> bool {
                 <$t>::is_finite(self)

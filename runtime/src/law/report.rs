@@ -1,0 +1,196 @@
+//! The report's robust law, equation (34).
+
+use core::array::from_fn;
+
+use super::exact::feedforward_and_feedback;
+use super::{Gains, Law, Sample, Switching, Tracking, check_coulomb, check_nonnegative, check_symmetric};
+use crate::vector::{abs, add, mat_vec};
+use crate::{ConfigError, Model, Real};
+
+/// Equation (16) with a simplified model, less ΔC1 s and a switching term that outweighs what the model leaves out:
+///
+/// − diag(sgn s) \[ΔD(|q̈_d| + P12|q̇_e|) + (ΔB + ΔC)|q̇| + ΔG\].
+///
+/// ΔD, ΔB and ΔG are the model's own [`bounds`](Model::bounds).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReportLaw<T, const N: usize> {
+    /// P12, K and Pqq.
+    pub gains: Gains<T, N>,
+    /// ΔC of equation (30), by rows, N·m·s/rad: see [`Bounds::coriolis`](crate::Bounds::coriolis).
+    pub delta_c: [[T; N]; N],
+    /// ΔC1, by rows, N·m·s/rad: symmetric, and ΔC1 + sym(δC) positive definite for every |δC| ≤ ΔC, which k·I is for
+    /// every k > λ_max(sym ΔC).
+    pub delta_c1: [[T; N]; N],
+    /// sgn, or the boundary layer.
+    pub switching: Switching<T, N>,
+    /// Coulomb friction of each joint, [forwards ≥ 0, backwards ≤ 0], N·m, added in the desired direction of motion
+    /// and not at rest; zeros leave it to the feedback.
+    pub coulomb: [[T; 2]; N],
+}
+
+impl<T: Real, const N: usize> ReportLaw<T, N> {
+    /// The size of the switching term, the bracket of (34), N·m.
+    pub fn robust_gain<M: Model<N, Scalar = T>>(&self, model: &M, sample: &Sample<T, N>) -> [T; N] {
+        self.bracket(model, sample, &Tracking::new(&self.gains.p12, sample))
+    }
+
+    fn bracket<M: Model<N, Scalar = T>>(
+        &self,
+        model: &M,
+        sample: &Sample<T, N>,
+        tracking: &Tracking<T, N>,
+    ) -> [T; N] {
+        let bounds = model.bounds();
+        let acceleration = add(&abs(&sample.desired.qdd), &mat_vec(&self.gains.p12, &abs(&tracking.qd_e)));
+        let inertia = mat_vec(&bounds.d, &acceleration);
+        let speed = abs(&sample.qd);
+        let coriolis = mat_vec(&self.delta_c, &speed);
+        from_fn(|i| inertia[i] + bounds.b[i] * speed[i] + coriolis[i] + bounds.g[i])
+    }
+}
+
+impl<M: Model<N, Scalar = T>, T: Real, const N: usize> Law<M, N> for ReportLaw<T, N> {
+    type State = ();
+
+    fn initial_state(&self) {}
+
+    fn torque(&self, model: &M, _state: &mut (), sample: &Sample<T, N>) -> [T; N] {
+        let tracking = Tracking::new(&self.gains.p12, sample);
+        let nominal = feedforward_and_feedback(model, &self.gains, &self.coulomb, sample, &tracking);
+        let damping = mat_vec(&self.delta_c1, &tracking.s);
+        let size = self.bracket(model, sample, &tracking);
+        let side = self.switching.at(&tracking.s);
+        from_fn(|i| nominal[i] - damping[i] - side[i] * size[i])
+    }
+
+    fn check(&self) -> Result<(), ConfigError> {
+        self.gains.check()?;
+        check_nonnegative("delta_c", &self.delta_c)?;
+        check_symmetric("delta_c1", &self.delta_c1)?;
+        self.switching.check()?;
+        check_coulomb(&self.coulomb)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::law::lyapunov;
+    use crate::simulate::{Plant, RigidPlant};
+    use crate::test_arm::TwoLink;
+    use crate::vector::{along, dot};
+    use crate::{Desired, ExactLaw};
+
+    const GAINS: Gains<f64, 2> = Gains {
+        p12: [[3.0, 1.0], [1.0, 3.0]],
+        damping: [[5.0 + 5.5 / 8.0, -0.5 / 8.0], [-0.5 / 8.0, 5.0 + 5.5 / 8.0]],
+        pqq: [[2.0, 0.5], [0.5, 2.0]],
+    };
+
+    /// The law for the perturbed arm, at joint speeds up to `speed`.
+    fn law(speed: f64, switching: Switching<f64, 2>) -> ReportLaw<f64, 2> {
+        let delta_c = TwoLink::<f64>::perturbed().bounds.coriolis(&[speed; 2]);
+        // The trace and the two off-diagonals together are at least λ_max(sym ΔC).
+        let k = delta_c.iter().flatten().sum::<f64>();
+        ReportLaw { gains: GAINS, delta_c, delta_c1: [[k, 0.0], [0.0, k]], switching, coulomb: [[0.0; 2]; 2] }
+    }
+
+    fn states() -> impl Iterator<Item = Sample<f64, 2>> {
+        (0..4000_u32).map(|k| {
+            // An additive recurrence with irrational steps fills the box evenly.
+            let at = |i: u32, half: f64| {
+                let x = f64::from(k + 1) * f64::from(i).sqrt();
+                half * (2.0 * (x - x.floor()) - 1.0)
+            };
+            Sample {
+                q: [at(2, 3.0), at(3, 3.0)],
+                qd: [at(5, 3.0), at(7, 3.0)],
+                desired: Desired {
+                    q: [at(11, 3.0), at(13, 3.0)],
+                    qd: [at(17, 3.0), at(19, 3.0)],
+                    qdd: [at(23, 4.0), at(29, 4.0)],
+                },
+                period: 1e-3,
+            }
+        })
+    }
+
+    /// V̇ + zᵀ M z, (17), under a law that knows the perturbed arm and drives the true one.
+    fn excess(law: &impl Law<TwoLink<f64>, 2, State = ()>, sample: &Sample<f64, 2>) -> f64 {
+        let arm = TwoLink::<f64>::EXAMPLE;
+        let plant = RigidPlant { model: arm, coulomb: [[0.0; 2]; 2] };
+        let torque = law.torque(&TwoLink::perturbed(), &mut (), sample);
+        let qdd = plant.acceleration(&sample.q, &sample.qd, &torque).unwrap();
+        let h = 1e-5;
+        let shifted = |h: f64| {
+            let desired = &sample.desired;
+            let moved = Sample {
+                q: along(&sample.q, h, &sample.qd),
+                qd: along(&sample.qd, h, &qdd),
+                desired: Desired {
+                    q: along(&desired.q, h, &desired.qd),
+                    qd: along(&desired.qd, h, &desired.qdd),
+                    qdd: desired.qdd,
+                },
+                period: sample.period,
+            };
+            lyapunov(&arm, &GAINS, &moved)
+        };
+        let Tracking { s, q_e, .. } = Tracking::new(&GAINS.p12, sample);
+        let omega_q_e = mat_vec(&GAINS.pqq, &mat_vec(&GAINS.p12, &q_e));
+        let form = dot(&s, &mat_vec(&GAINS.damping, &s)) - 2.0 * dot(&s, &mat_vec(&GAINS.pqq, &q_e))
+            + dot(&q_e, &omega_q_e);
+        (shifted(h) - shifted(-h)) / (2.0 * h) + form
+    }
+
+    #[test]
+    fn outweighs_every_error_inside_the_bounds() {
+        let robust = law(3.0, Switching::Sign);
+        Law::<TwoLink<f64>, 2>::check(&robust).unwrap();
+        let worst = states().map(|sample| excess(&robust, &sample)).fold(f64::MIN, f64::max);
+        assert!(worst < 1e-4, "V̇ exceeds −zᵀMz by {worst}");
+        // Without the robust terms the same model does exceed it.
+        let plain = ExactLaw { gains: GAINS, coulomb: [[0.0; 2]; 2] };
+        assert!(states().map(|sample| excess(&plain, &sample)).fold(f64::MIN, f64::max) > 1.0);
+    }
+
+    #[test]
+    fn boundary_layer_costs_a_quarter_of_gain_times_width() {
+        let width = 0.5;
+        let layer = law(3.0, Switching::BoundaryLayer([width; 2]));
+        for sample in states() {
+            let gain = layer.robust_gain(&TwoLink::perturbed(), &sample);
+            assert!(excess(&layer, &sample) < (gain[0] + gain[1]) * width / 4.0 + 1e-4);
+        }
+    }
+
+    #[test]
+    fn adds_the_terms_of_equation_34() {
+        let model = TwoLink::<f64>::perturbed();
+        let sample = Sample {
+            q: [0.5, -1.0],
+            qd: [1.0, -2.0],
+            desired: Desired { q: [0.0, 0.0], qd: [0.5, 0.0], qdd: [-1.0, 2.0] },
+            period: 1e-3,
+        };
+        let robust = ReportLaw {
+            gains: Gains { p12: [[2.0, 0.0], [0.0, 2.0]], ..GAINS },
+            delta_c: [[0.1, 0.2], [0.3, 0.4]],
+            delta_c1: [[0.5, 0.25], [0.25, 1.0]],
+            switching: Switching::Sign,
+            coulomb: [[0.0; 2]; 2],
+        };
+        // |q̈_d| + P12|q̇_e| = (2, 6), |q̇| = (1, 2), s = (1.5, −4); ΔD = [0.25, 0.08; 0.08, 0.03].
+        let bracket = [
+            0.25 * 2.0 + 0.08 * 6.0 + 0.05 * 1.0 + 0.1 * 1.0 + 0.2 * 2.0 + 1.5,
+            0.08 * 2.0 + 0.03 * 6.0 + 0.02 * 2.0 + 0.3 * 1.0 + 0.4 * 2.0 + 0.5,
+        ];
+        let added = [0.5 * 1.5 - 0.25 * 4.0 + bracket[0], 0.25 * 1.5 - 4.0 - bracket[1]];
+        let plain =
+            ExactLaw { gains: robust.gains, coulomb: robust.coulomb }.torque(&model, &mut (), &sample);
+        let torque = robust.torque(&model, &mut (), &sample);
+        for i in 0..2 {
+            assert!((plain[i] - torque[i] - added[i]).abs() < 1e-12, "{plain:?} {torque:?} {added:?}");
+        }
+    }
+}
