@@ -1,6 +1,7 @@
 //! Gramforge: an offline generator of certified reduced robot dynamics.
 pub mod arm;
 pub mod bounds;
+pub mod design;
 pub mod dynamics;
 pub mod error;
 pub mod graph;

@@ -42,9 +42,8 @@ impl Bounds {
 
     /// Equation (30): ΔC_ij = Σ_k Δh_ijk max|q̇_k|, with the largest speeds given.
     pub fn coriolis(&self, speed: &[f64]) -> Vec<Vec<f64>> {
-        let row = |row: &Vec<Vec<f64>>| {
-            row.iter().map(|h| h.iter().zip(speed).map(|(h, v)| h * v).sum()).collect()
-        };
+        let row =
+            |row: &Vec<Vec<f64>>| row.iter().map(|h| h.iter().zip(speed).map(|(h, v)| h * v).sum()).collect();
         self.h.iter().map(row).collect()
     }
 }

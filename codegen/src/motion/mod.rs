@@ -6,7 +6,7 @@ mod spline;
 
 use std::path::Path;
 
-use gramforge_runtime::{Sinusoid, cubic, quintic, sinusoids};
+use gramforge_runtime::reference::{Sinusoid, cubic, quintic, sinusoids};
 
 use crate::error::Faults;
 use crate::spec::MotionSpec;
@@ -86,6 +86,18 @@ impl Motion {
             Self::Quintic { duration, .. } | Self::Sinusoids { duration, .. } => *duration,
             Self::Spline(spline) => spline.duration(),
         }
+    }
+
+    /// Largest |q̇_d| by joint over 2001 instants, rad/s or m/s.
+    pub fn largest_speed(&self) -> Vec<f64> {
+        let mut largest = vec![0.0_f64; self.dof()];
+        for k in 0..=2000 {
+            let target = self.at(self.duration() * f64::from(k) / 2000.0);
+            for (largest, qd) in largest.iter_mut().zip(&target.qd) {
+                *largest = largest.max(qd.abs());
+            }
+        }
+        largest
     }
 
     /// Number of joints.

@@ -24,8 +24,12 @@ impl Spline {
                 let h = times[k + 1] - times[k];
                 let chord = (q[k + 1] - q[k]) / h;
                 let (left, right) = (slopes[k], slopes[k + 1]);
-                piece[joint] =
-                    [q[k], left, (3.0 * chord - 2.0 * left - right) / h, (left + right - 2.0 * chord) / (h * h)];
+                piece[joint] = [
+                    q[k],
+                    left,
+                    (3.0 * chord - 2.0 * left - right) / h,
+                    (left + right - 2.0 * chord) / (h * h),
+                ];
             }
         }
         Self { times, pieces }
@@ -88,7 +92,11 @@ mod tests {
         for k in 0..4 {
             let [c0, c1, c2, c3] = spline.pieces[k][0];
             let h = times[k + 1] - times[k];
-            let end = [c0 + h * (c1 + h * (c2 + h * c3)), c1 + h * (2.0 * c2 + 3.0 * h * c3), 2.0 * c2 + 6.0 * h * c3];
+            let end = [
+                c0 + h * (c1 + h * (c2 + h * c3)),
+                c1 + h * (2.0 * c2 + 3.0 * h * c3),
+                2.0 * c2 + 6.0 * h * c3,
+            ];
             assert!((c0 - positions[k][0]).abs() < 1e-15);
             assert!((end[0] - positions[k + 1][0]).abs() < 1e-14);
             if let Some(next) = spline.pieces.get(k + 1) {

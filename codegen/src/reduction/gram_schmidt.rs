@@ -159,8 +159,7 @@ impl<'a> GramSchmidt<'a> {
 
     /// Rank-one updates (6), (7) for a new direction; returns the projections of the α_m.
     fn project(&mut self, direction: &[f64]) -> Vec<f64> {
-        let along: Vec<f64> =
-            self.samples.functions.par_iter().map(|psi| dot(direction, psi)).collect();
+        let along: Vec<f64> = self.samples.functions.par_iter().map(|psi| dot(direction, psi)).collect();
         let projections: Vec<f64> =
             self.samples.coefficients.iter().map(|alpha| dot(direction, alpha)).collect();
         for (norm, b) in self.norms.iter_mut().zip(&along) {

@@ -1,0 +1,26 @@
+//! Small dense matrices, by rows, through nalgebra in its deterministic (no-std) form.
+
+use nalgebra::DMatrix;
+
+fn dense(m: &[Vec<f64>]) -> DMatrix<f64> {
+    DMatrix::from_fn(m.len(), m.len(), |i, j| m[i][j])
+}
+
+/// Eigenvalues of a symmetric matrix, ascending.
+pub(crate) fn symmetric_eigenvalues(m: &[Vec<f64>]) -> Vec<f64> {
+    let mut values: Vec<f64> = dense(m).symmetric_eigenvalues().iter().copied().collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// Inverse of a square matrix; `None` where it is singular.
+pub(crate) fn inverse(m: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+    let inverse = dense(m).try_inverse()?;
+    Some((0..m.len()).map(|i| (0..m.len()).map(|j| inverse[(i, j)]).collect()).collect())
+}
+
+/// a b, by rows.
+pub(crate) fn product(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let n = a.len();
+    (0..n).map(|i| (0..n).map(|j| (0..n).map(|k| a[i][k] * b[k][j]).sum()).collect()).collect()
+}
