@@ -1,8 +1,10 @@
 //! Gramforge: an offline generator of certified reduced robot dynamics.
 pub mod arm;
+pub mod body;
 pub mod bounds;
 pub mod design;
 pub mod dynamics;
+pub mod emit;
 pub mod error;
 pub mod graph;
 pub mod lagrangian;

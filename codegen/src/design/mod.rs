@@ -11,7 +11,7 @@ use linalg::symmetric_eigenvalues;
 use crate::arm::Arm;
 use crate::bounds::Bounds;
 use crate::error::Error;
-use crate::spec::{ControlSpec, LawSpec, OnFaultSpec, VectorSpec};
+use crate::spec::{ControlSpec, LawSpec, MatrixSpec, OnFaultSpec, VectorSpec};
 
 /// Everything a controller needs beside its model.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,6 +67,13 @@ pub fn design(
         coulomb: arm.joints.iter().map(coulomb).collect(),
         on_fault: control.on_fault,
     })
+}
+
+impl Design {
+    /// ΔC1 = k*·I, n×n by rows.
+    pub fn delta_c1(&self) -> Vec<Vec<f64>> {
+        MatrixSpec::Scalar(self.k_star).expand(self.delta_c.len())
+    }
 }
 
 impl VectorSpec {
