@@ -64,9 +64,7 @@ fn around(convention: Convention, link: &LinkSpec) -> (Transform, Transform) {
     match (convention, link.joint) {
         (Convention::Standard, JointKind::Revolute) => (angle, offset.then(&length).then(&twist)),
         (Convention::Standard, JointKind::Prismatic) => (angle.then(&offset), length.then(&twist)),
-        (Convention::Modified, _) => {
-            (twist.then(&length).then(&angle).then(&offset), Transform::IDENTITY)
-        }
+        (Convention::Modified, _) => (twist.then(&length).then(&angle).then(&offset), Transform::IDENTITY),
     }
 }
 
@@ -94,7 +92,8 @@ fn body(link: &LinkSpec, place: &Place, faults: &mut Faults) -> Option<(Body, &'
 }
 
 fn explain(given: &[(&str, bool); 4], place: &Place, faults: &mut Faults) {
-    let names: Vec<String> = given.iter().filter(|(_, is)| *is).map(|(name, _)| format!("`{name}`")).collect();
+    let names: Vec<String> =
+        given.iter().filter(|(_, is)| *is).map(|(name, _)| format!("`{name}`")).collect();
     let [first, sigma, com, inertia] = given.map(|(_, is)| is);
     let whole = (first && sigma) || (com && inertia);
     let (problem, mend) = match (names.as_slice(), whole) {

@@ -110,7 +110,11 @@ impl Arm {
                 None
             }
             (None, None) => {
-                faults.push("arm", "has neither `dh` nor `urdf`", "add a DH table or the path of a URDF file");
+                faults.push(
+                    "arm",
+                    "has neither `dh` nor `urdf`",
+                    "add a DH table or the path of a URDF file",
+                );
                 None
             }
         };

@@ -185,7 +185,8 @@ fn modified_tables_describe_the_same_arm_as_standard_ones() {
 fn a_payload_joins_the_last_body() {
     let path = root().join("generated/specs/arm3.json");
     let bare = build(&path).arm;
-    let mut value: Value = serde_json::from_str(&std::fs::read_to_string(&path).expect("a file")).expect("JSON");
+    let mut value: Value =
+        serde_json::from_str(&std::fs::read_to_string(&path).expect("a file")).expect("JSON");
     value["arm"]["payload"] = json!({ "mass": 2.0, "com": [0.1, 0.0, 0.0] });
     let laden = arm_of(&value).expect("an arm").arm;
     assert_eq!(laden.joints[2].body.mass, 5.5);
@@ -228,9 +229,15 @@ fn expect(edit: impl Fn(&mut Value), parts: &[&str]) {
 fn faults_of_tables_name_field_value_and_mend() {
     let link = |v: &mut Value, i: usize, name: &str, to: Value| v["arm"]["dh"]["links"][i][name] = to;
     let com = json!([0.0, 0.0, 0.0]);
-    expect(|v| link(v, 1, "mass", json!(-4.0)), &["arm.dh.links[1].mass: is -4; write a number of at least 0"]);
+    expect(
+        |v| link(v, 1, "mass", json!(-4.0)),
+        &["arm.dh.links[1].mass: is -4; write a number of at least 0"],
+    );
     expect(|v| link(v, 1, "mass", json!(0.0)), &["links[1].first_moment: is [-0.375, 0.0, 0.0] although"]);
-    expect(|v| link(v, 0, "com", com.clone()), &["links[0]: mixes `first_moment`, `pseudo_inertia`, `com`; keep"]);
+    expect(
+        |v| link(v, 0, "com", com.clone()),
+        &["links[0]: mixes `first_moment`, `pseudo_inertia`, `com`; keep"],
+    );
     expect(
         |v| {
             let _ = v["arm"]["dh"]["links"][2].as_object_mut().expect("a link").remove("pseudo_inertia");

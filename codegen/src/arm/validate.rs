@@ -18,9 +18,19 @@ const CANCELLATION: f64 = 1e-12;
 /// mass positive semidefinite; a broken triangle inequality is a warning, for published tables break it.
 ///
 /// `inertia` is the name of the field from which the inertia comes.
-pub(super) fn body(body: &Body, inertia: &str, place: &Place, faults: &mut Faults, warnings: &mut Vec<String>) {
+pub(super) fn body(
+    body: &Body,
+    inertia: &str,
+    place: &Place,
+    faults: &mut Faults,
+    warnings: &mut Vec<String>,
+) {
     if !body.is_finite() {
-        place.fault(faults, "has inertial data that are not finite or overflow", "write finite numbers in SI units");
+        place.fault(
+            faults,
+            "has inertial data that are not finite or overflow",
+            "write finite numbers in SI units",
+        );
         return;
     }
     if place.at("mass").not_negative(body.mass, "kg", faults).is_none() {
@@ -50,7 +60,12 @@ pub(super) fn body(body: &Body, inertia: &str, place: &Place, faults: &mut Fault
 }
 
 /// The body of a payload, in the tip frame, after its checks.
-pub(super) fn payload(spec: &PayloadSpec, place: &Place, faults: &mut Faults, warnings: &mut Vec<String>) -> Body {
+pub(super) fn payload(
+    spec: &PayloadSpec,
+    place: &Place,
+    faults: &mut Faults,
+    warnings: &mut Vec<String>,
+) -> Body {
     let inertia = spec.inertia.as_ref().map_or([[0.0; 3]; 3], matrix);
     let out = Body::from_com(spec.mass, spec.com, inertia);
     body(&out, "inertia", place, faults, warnings);

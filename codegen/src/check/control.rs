@@ -39,7 +39,8 @@ fn definite(
     joints: Option<usize>,
     faults: &mut Faults,
 ) -> Option<DMatrix<f64>> {
-    let wanted = "write a positive number, a list of positive numbers or a symmetric positive definite matrix";
+    let wanted =
+        "write a positive number, a list of positive numbers or a symmetric positive definite matrix";
     match spec {
         MatrixSpec::Scalar(value) if *value <= 0.0 => {
             faults.push(field, format!("is {value}"), wanted);
@@ -69,7 +70,11 @@ fn definite(
     let matrix = DMatrix::from_fn(n, n, |i, j| rows.get(i).and_then(|r| r.get(j)).copied().unwrap_or(0.0));
     if let Some((i, j)) = asymmetry(&matrix) {
         let problem = format!("is not symmetric: {} and {}", matrix[(i, j)], matrix[(j, i)]);
-        faults.push(format!("{field}[{i}][{j}]"), problem, "write the same number on both sides of the diagonal");
+        faults.push(
+            format!("{field}[{i}][{j}]"),
+            problem,
+            "write the same number on both sides of the diagonal",
+        );
         return None;
     }
     if matrix.clone().cholesky().is_none() {

@@ -16,7 +16,14 @@ pub(super) fn check(spec: &Spec, arm: Option<&Arm>, joints: Option<usize>, fault
         }
         Some(MeasureSpec::Tube { position_error }) => {
             let field = "measure.tube.position_error";
-            entries(field, position_error, joints, |v| v >= 0.0, "a number of at least 0, in rad or m", faults);
+            entries(
+                field,
+                position_error,
+                joints,
+                |v| v >= 0.0,
+                "a number of at least 0, in rad or m",
+                faults,
+            );
         }
         Some(MeasureSpec::Trajectory) | None => {}
     }

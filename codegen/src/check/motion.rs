@@ -19,7 +19,11 @@ pub(super) fn check(motion: &MotionSpec, joints: Option<usize>, faults: &mut Fau
             positive("motion.sinusoids.duration", *duration, faults);
         }
         MotionSpec::Csv { file } if file.is_empty() => {
-            faults.push("motion.csv.file", "is empty", "write the path of a table, relative to the specification");
+            faults.push(
+                "motion.csv.file",
+                "is empty",
+                "write the path of a table, relative to the specification",
+            );
         }
         MotionSpec::Csv { .. } => {}
     }
@@ -43,7 +47,11 @@ fn waypoints(times: &[f64], positions: &[Vec<f64>], joints: Option<usize>, fault
     }
     if positions.len() != times.len() {
         let problem = format!("has {} entries", positions.len());
-        faults.push("motion.waypoints.positions", problem, format!("write {}, one for each time", times.len()));
+        faults.push(
+            "motion.waypoints.positions",
+            problem,
+            format!("write {}, one for each time", times.len()),
+        );
     }
     for (i, position) in positions.iter().enumerate() {
         length(&format!("motion.waypoints.positions[{i}]"), position.len(), joints, faults);

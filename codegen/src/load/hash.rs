@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-use super::{named, Loaded};
+use super::{Loaded, named};
 use crate::error::{Error, Faults};
 
 /// SHA-256, in hexadecimal, of the specification and the files that it names.

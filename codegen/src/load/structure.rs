@@ -1,8 +1,8 @@
 //! Missing, unknown and mistyped fields: the schema's verdict, one plain message for each mistake.
 
+use jsonschema::ValidationError;
 use jsonschema::error::ValidationErrorKind as Kind;
 use jsonschema::paths::{Location, LocationSegment};
-use jsonschema::ValidationError;
 use serde_json::Value;
 
 use super::wording::{describe, either, entry, member, nearest, options, quoted, resolve, show, tag};
@@ -72,7 +72,9 @@ impl<'a> Explainer<'a> {
                 let known: Vec<String> = properties(parent).map(str::to_string).collect();
                 for name in unexpected {
                     let mend = match nearest(name, properties(parent)) {
-                        Some(near) => format!("did you mean `{near}`? The fields here are {}", quoted(&known)),
+                        Some(near) => {
+                            format!("did you mean `{near}`? The fields here are {}", quoted(&known))
+                        }
                         None => format!("remove it; the fields here are {}", quoted(&known)),
                     };
                     self.faults.push(member(&field, name), "is not a field", mend);
@@ -120,8 +122,10 @@ impl<'a> Explainer<'a> {
         let list: &[Value] = branches.as_array().map_or(&[], Vec::as_slice);
         let tags = list.iter().map(|branch| tag(resolve(self.schema, branch)));
         if let Value::Object(map) = instance {
-            let found: Vec<(usize, &str)> =
-                tags.enumerate().filter_map(|(i, t)| Some((i, t.filter(|t| map.contains_key(*t))?))).collect();
+            let found: Vec<(usize, &str)> = tags
+                .enumerate()
+                .filter_map(|(i, t)| Some((i, t.filter(|t| map.contains_key(*t))?)))
+                .collect();
             match found.as_slice() {
                 [(index, _)] => {
                     if let Some(errors) = context.get(*index) {

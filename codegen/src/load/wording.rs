@@ -31,8 +31,7 @@ pub(super) fn describe(root: &Value, schema: &Value) -> String {
         return either(&one);
     }
     if let Some(branches) = schema.get("anyOf").and_then(Value::as_array) {
-        let all: Vec<String> =
-            branches.iter().filter(|s| !is_null(s)).map(|s| describe(root, s)).collect();
+        let all: Vec<String> = branches.iter().filter(|s| !is_null(s)).map(|s| describe(root, s)).collect();
         return all.join(" or ");
     }
     match kind(schema) {

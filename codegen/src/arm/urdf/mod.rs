@@ -80,7 +80,9 @@ fn assemble(
         let &(owner, at) = seats.get(joint.parent.link.as_str())?;
         let here = at.then(&pose(&joint.origin, &place.at("origin"), faults)?);
         let seat = match role {
-            Role::Welded(position) if joint.joint_type == JointType::Fixed || *position == 0.0 => (owner, here),
+            Role::Welded(position) if joint.joint_type == JointType::Fixed || *position == 0.0 => {
+                (owner, here)
+            }
             Role::Welded(position) => {
                 let turn = axis(joint, &place, faults)?;
                 let moved = match kind(&joint.joint_type) {
@@ -114,7 +116,8 @@ fn assemble(
         }
     }
     if joints.is_empty() || joints.len() > MOST_JOINTS {
-        let problem = format!("leaves {} movable joints between {} and {}", joints.len(), tree.root, tree.tip);
+        let problem =
+            format!("leaves {} movable joints between {} and {}", joints.len(), tree.root, tree.tip);
         let mend = format!("choose `arm.tip` and `arm.lock` so that 1 to {MOST_JOINTS} remain");
         faults.push("arm.urdf", problem, mend);
         return None;

@@ -18,8 +18,7 @@ const NUMBERS: [(&str, &[&str], &[&str]); 4] = [
     ("dynamics", &[], &["damping", "friction"]),
 ];
 
-const TYPES: [&str; 7] =
-    ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
+const TYPES: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
 
 /// One tag of the text.
 struct Tag<'a> {
@@ -44,7 +43,11 @@ pub(super) fn prepare(text: &str, file: &Path, faults: &mut Faults) -> String {
             return out;
         }
         None => {
-            Place::new(file, "").fault(faults, "has no XML element", "give a URDF file, whose root is <robot>");
+            Place::new(file, "").fault(
+                faults,
+                "has no XML element",
+                "give a URDF file, whose root is <robot>",
+            );
             return out;
         }
     }

@@ -181,7 +181,11 @@ fn roles<'a>(
     let movable: Vec<&str> = ordered.iter().filter(|j| slides_or_turns(j)).map(|j| j.name.as_str()).collect();
     for name in spec.lock.keys().filter(|name| !movable.contains(&name.as_str())) {
         let mend = format!("name one of the movable joints {}", list(movable.iter().copied()));
-        faults.push(format!("arm.lock.{name}"), format!("is not a movable joint of {}", file.display()), mend);
+        faults.push(
+            format!("arm.lock.{name}"),
+            format!("is not a movable joint of {}", file.display()),
+            mend,
+        );
     }
     let mut out = Vec::new();
     for joint in ordered {
