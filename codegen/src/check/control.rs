@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::shape::{entries, matrix};
+use super::shape::{entries, has, matrix};
 use crate::error::Faults;
 use crate::spec::{ControlSpec, MatrixSpec};
 
@@ -61,7 +61,7 @@ fn definite(
                 let widths: Vec<usize> = rows.iter().map(Vec::len).collect();
                 format!("has {} rows of {widths:?} entries", rows.len())
             }
-            MatrixSpec::Diagonal(list) => format!("has {} entries", list.len()),
+            MatrixSpec::Diagonal(list) => has(list.len()),
             MatrixSpec::Scalar(_) => String::new(),
         };
         faults.push(field, found, format!("write one number, {n} numbers or {n} rows of {n} numbers"));

@@ -1,6 +1,6 @@
 //! Motions: as many numbers as joints, times that run forwards.
 
-use super::shape::length;
+use super::shape::{has, length};
 use crate::error::Faults;
 use crate::spec::MotionSpec;
 
@@ -32,21 +32,21 @@ pub(super) fn check(motion: &MotionSpec, joints: Option<usize>, faults: &mut Fau
 fn waypoints(times: &[f64], positions: &[Vec<f64>], joints: Option<usize>, faults: &mut Faults) {
     let field = "motion.waypoints.times";
     if times.len() < 2 {
-        faults.push(field, format!("has {} entries", times.len()), "write at least 2 times");
+        faults.push(field, has(times.len()), "write at least 2 times");
     }
     if let Some(first) = times.first().filter(|t| **t != 0.0) {
         faults.push(format!("{field}[0]"), format!("is {first}"), "start at 0");
     }
     for (i, pair) in times.windows(2).enumerate() {
-        if let [before, after] = pair {
-            if after <= before {
-                let problem = format!("is {after}, after {before}");
-                faults.push(format!("{field}[{}]", i + 1), problem, "let the times rise");
-            }
+        if let [before, after] = pair
+            && after <= before
+        {
+            let problem = format!("is {after}, after {before}");
+            faults.push(format!("{field}[{}]", i + 1), problem, "let the times rise");
         }
     }
     if positions.len() != times.len() {
-        let problem = format!("has {} entries", positions.len());
+        let problem = has(positions.len());
         faults.push(
             "motion.waypoints.positions",
             problem,

@@ -28,12 +28,16 @@ pub fn matrix(spec: &MatrixSpec, n: usize) -> Option<Vec<Vec<f64>>> {
     }
 }
 
+/// "has 1 entry", "has 2 entries".
+pub(super) fn has(count: usize) -> String {
+    format!("has {count} {}", if count == 1 { "entry" } else { "entries" })
+}
+
 /// A fault where a list has not one entry for each of `joints`; true where it has, or the number is unknown.
 pub(super) fn length(field: &str, found: usize, joints: Option<usize>, faults: &mut Faults) -> bool {
     match joints {
         Some(n) if found != n => {
-            let noun = if found == 1 { "entry" } else { "entries" };
-            faults.push(field, format!("has {found} {noun}"), format!("write {n}, one for each joint"));
+            faults.push(field, has(found), format!("write {n}, one for each joint"));
             false
         }
         _ => true,

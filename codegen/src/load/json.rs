@@ -9,8 +9,6 @@ use super::wording::{entry, member};
 use crate::error::Faults;
 
 /// The value that `text` stands for; `None` after a syntax fault. Repeated keys are faults too, the last one stands.
-///
-/// Whole numbers written as `5.0` come back as `5`, so that every field for a whole number takes them.
 pub(super) fn read(text: &str, faults: &mut Faults) -> Option<Value> {
     let text = text.trim_start_matches('\u{feff}');
     let mut repeated = Vec::new();
@@ -27,6 +25,22 @@ pub(super) fn read(text: &str, faults: &mut Faults) -> Option<Value> {
             faults.push("", problem, mend);
             None
         }
+    }
+}
+
+/// Turns `5.0` into `5`, which fields for numbers take as well and fields for whole numbers take alone.
+pub(super) fn narrow(value: &mut Value) {
+    match value {
+        Value::Array(list) => list.iter_mut().for_each(narrow),
+        Value::Object(map) => map.values_mut().for_each(narrow),
+        Value::Number(number) if number.is_f64() => {
+            // Above 2^53 a float need not be the whole number that was written.
+            let whole = |x: &f64| x.is_sign_positive() && x.fract() == 0.0 && *x < 9_007_199_254_740_992.0;
+            if let Some(x) = number.as_f64().filter(whole) {
+                *value = Value::from(x as u64);
+            }
+        }
+        _ => {}
     }
 }
 
@@ -78,11 +92,6 @@ impl<'de> Visitor<'de> for Node<'_> {
     }
 
     fn visit_f64<E: serde::de::Error>(self, value: f64) -> Result<Value, E> {
-        // Above 2^53 a float need not be the whole number that was written.
-        let whole = value.is_sign_positive() && value.fract() == 0.0 && value < 9_007_199_254_740_992.0;
-        if whole {
-            return Ok(Value::from(value as u64));
-        }
         Number::from_f64(value).map(Value::Number).ok_or_else(|| E::custom("number out of range"))
     }
 

@@ -57,11 +57,12 @@ pub fn load(path: &Path) -> Result<Loaded, Error> {
 /// unknown, repeated or of the wrong type.
 pub fn parse(text: &str, path: &Path) -> Result<Loaded, Error> {
     let mut faults = Faults::of(path);
-    let Some(value) = json::read(text, &mut faults) else { return Err(faults.into_error()) };
+    let Some(mut value) = json::read(text, &mut faults) else { return Err(faults.into_error()) };
     structure::check(&value, &mut faults)?;
     if !faults.is_empty() {
         return Err(faults.into_error());
     }
+    json::narrow(&mut value);
     let spec: Spec = serde_json::from_value(value).map_err(|error| {
         Error::input(path, "", format!("does not fit the schema ({error})"), "compare it with the schema")
     })?;

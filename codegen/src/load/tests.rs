@@ -54,7 +54,10 @@ fn syntax_faults_name_line_and_column() {
 
 #[test]
 fn structural_faults_name_field_value_and_mend() {
-    expect(|v| remove(v, "", "model"), &["model: is missing; write one"]);
+    expect(
+        |v| remove(v, "", "model"),
+        &["model: is missing; write \"exact\" or { \"shared\": … } (Form of the model"],
+    );
     expect(
         |v| remove(v, "/arm/dh/links/1", "mass"),
         &["arm.dh.links[1].mass: is missing; write a number (Mass, kg)"],
@@ -164,7 +167,7 @@ fn all_faults_are_shown_at_once() {
             "name: is 5",
             "control.period: is missing",
             "arm.dh.links[2].a: is []",
-            "motion.quintic.to: is 1.0",
+            "motion.quintic.to: is 1.0; write a list of numbers",
         ],
     );
 }
@@ -231,7 +234,7 @@ fn the_hash_covers_named_files() {
     let loaded = parse(&value.to_string(), &folder.join("a.json")).expect("a specification");
     let missing = spec_hash(&loaded).expect_err("a fault").to_string();
     assert!(missing.contains("motion.csv.file: names \"a.csv\", which cannot be read"), "{missing}");
-    let mut with = |text: &str| {
+    let with = |text: &str| {
         std::fs::write(folder.join("a.csv"), text).expect("a file");
         spec_hash(&loaded).expect("a hash")
     };

@@ -66,10 +66,8 @@ pub(super) fn prepare(text: &str, file: &Path, faults: &mut Faults) -> String {
     let mut owner = Place::new(file, "robot");
     for tag in kept.iter().filter(|tag| !tag.closes) {
         let value = |name: &str| tag.attributes.iter().find(|(key, _)| *key == name).map(|(_, value)| *value);
-        if tag.name == "link" || tag.name == "joint" {
-            if let Some(name) = value("name") {
-                owner = Place::new(file, format!("{}[{name}]", tag.name));
-            }
+        if let ("link" | "joint", Some(name)) = (tag.name, value("name")) {
+            owner = Place::new(file, format!("{}[{name}]", tag.name));
         }
         let here = if tag.name == "joint" { owner.clone() } else { owner.at(tag.name) };
         check(tag, value("type"), &here, faults);
