@@ -2,12 +2,14 @@
 pub mod arm;
 pub mod body;
 pub mod bounds;
+pub mod check;
 pub mod design;
 pub mod dynamics;
 pub mod emit;
 pub mod error;
 pub mod graph;
 pub mod lagrangian;
+pub mod load;
 pub mod measure;
 pub mod motion;
 pub mod reduction;
