@@ -26,6 +26,8 @@ pub struct Design {
     pub delta_c: Vec<Vec<f64>>,
     /// The k of ΔC1 = k·I: k* = λ_max(sym ΔC), N·m·s/rad.
     pub k_star: f64,
+    /// Bound on the Coulomb friction that the command does not cancel, by joint, N·m or N.
+    pub disturbance: Vec<f64>,
     /// φ of the boundary layer by joint; `None` for the sign function.
     pub boundary_layer: Option<Vec<f64>>,
     /// Control period, s.
@@ -55,12 +57,18 @@ pub fn design(
     let coulomb = |joint: &crate::arm::Joint| {
         if control.compensate_coulomb { joint.coulomb_friction } else { [0.0; 2] }
     };
+    let disturbance = |joint: &crate::arm::Joint| {
+        let [forwards, backwards] = joint.coulomb_friction;
+        // Compensated for the wrong direction, it counts in full from one side to the other.
+        if control.compensate_coulomb { forwards - backwards } else { forwards.max(-backwards) }
+    };
     Ok(Design {
         law: control.law,
         gains,
         envelope,
         delta_c,
         k_star,
+        disturbance: arm.joints.iter().map(disturbance).collect(),
         boundary_layer: control.boundary_layer.as_ref().map(|phi| phi.expand(n)),
         period: control.period,
         torque_limit: arm.joints.iter().map(|joint| joint.limits.torque).collect(),

@@ -73,6 +73,7 @@ fn law(design: &Design) -> Result<(TokenStream, TokenStream), Error> {
         LawSpec::Report => {
             let delta_c = matrix(&design.delta_c)?;
             let delta_c1 = matrix(&design.delta_c1())?;
+            let disturbance = vector(&design.disturbance)?;
             let switching = match &design.boundary_layer {
                 None => quote!(::gramforge_runtime::Switching::Sign),
                 Some(phi) => {
@@ -84,6 +85,7 @@ fn law(design: &Design) -> Result<(TokenStream, TokenStream), Error> {
                 gains: #gains,
                 delta_c: #delta_c,
                 delta_c1: #delta_c1,
+                disturbance: #disturbance,
                 switching: #switching,
                 coulomb: #coulomb,
             });
