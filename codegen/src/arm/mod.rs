@@ -129,6 +129,10 @@ impl Arm {
         if let (Some(payload), Some(last)) = (payload, arm.joints.last_mut()) {
             last.body = last.body.plus(&payload.moved(&arm.tip));
         }
+        let sane = |t: &Transform| t.translation.iter().all(|v| v.is_finite());
+        if !arm.joints.iter().all(|j| j.body.is_finite() && sane(&j.pose)) || !sane(&arm.tip) {
+            faults.push("arm", "holds lengths and masses whose products overflow", "write them in SI units");
+        }
         (faults.count() == before).then_some(Built { arm, warnings })
     }
 

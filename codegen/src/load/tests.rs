@@ -99,7 +99,7 @@ fn structural_faults_name_field_value_and_mend() {
     expect(
         |v| v["measure"] = json!({ "tubes": { "position_error": 0.1 } }),
         &[
-            "measure: is {\"tubes\":{\"position_error\":0.1}}; write \"trajectory\", \"workspace\" or { \"tube\": … }",
+            "measure: is {\"tubes\":{\"position_error\":0.1}}; write \"trajectory\", { \"tube\": … } or \"workspace\"",
         ],
     );
     expect(

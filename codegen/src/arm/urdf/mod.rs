@@ -84,6 +84,11 @@ fn assemble(
                 (owner, here)
             }
             Role::Welded(position) => {
+                let range = [joint.limit.lower, joint.limit.upper];
+                if range[0] < range[1] && (*position < range[0] || range[1] < *position) {
+                    let lock = Place::new(faults.file(), format!("arm.lock.{}", joint.name));
+                    lock.warn(warnings, &format!("is {position}, beyond the limits {range:?} of the file"));
+                }
                 let turn = axis(joint, &place, faults)?;
                 let moved = match kind(&joint.joint_type) {
                     JointKind::Revolute => Transform::rotation(2, *position),

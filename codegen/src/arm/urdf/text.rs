@@ -63,6 +63,8 @@ pub(super) fn prepare(text: &str, file: &Path, faults: &mut Faults) -> String {
         );
         return out;
     }
+    let version = kept.first().and_then(|root| root.attributes.iter().find(|(key, _)| *key == "version"));
+    let may_omit = version.is_some_and(|(_, version)| speed_is_optional(version));
     let mut owner = Place::new(file, "robot");
     for tag in kept.iter().filter(|tag| !tag.closes) {
         let value = |name: &str| tag.attributes.iter().find(|(key, _)| *key == name).map(|(_, value)| *value);
@@ -70,12 +72,19 @@ pub(super) fn prepare(text: &str, file: &Path, faults: &mut Faults) -> String {
             owner = Place::new(file, format!("{}[{name}]", tag.name));
         }
         let here = if tag.name == "joint" { owner.clone() } else { owner.at(tag.name) };
-        check(tag, value("type"), &here, faults);
+        check(tag, value("type"), may_omit, &here, faults);
     }
     out
 }
 
-fn check(tag: &Tag<'_>, kind: Option<&str>, here: &Place, faults: &mut Faults) {
+/// From version 1.2 on `<limit>` need not give the velocity.
+fn speed_is_optional(version: &str) -> bool {
+    let parts = version.trim().split_once('.');
+    let numbers = parts.and_then(|(a, b)| Some((a.parse::<u32>().ok()?, b.parse::<u32>().ok()?)));
+    numbers.is_some_and(|numbers| numbers >= (1, 2))
+}
+
+fn check(tag: &Tag<'_>, kind: Option<&str>, may_omit: bool, here: &Place, faults: &mut Faults) {
     if let (Some(word), "joint") = (kind.filter(|word| !TYPES.contains(word)), tag.name) {
         let mend = format!("write one of {}", TYPES.join(", "));
         here.at("type").fault(faults, format!("is {word:?}"), mend);
@@ -96,7 +105,7 @@ fn check(tag: &Tag<'_>, kind: Option<&str>, here: &Place, faults: &mut Faults) {
                 Some((_, value)) if value.trim().parse::<f64>().is_err() => {
                     here.at(name).fault(faults, format!("is {value:?}"), "write a number");
                 }
-                None if required.contains(name) => {
+                None if required.contains(name) && !(may_omit && *name == "velocity") => {
                     here.at(name).fault(faults, "is missing", "write a number");
                 }
                 _ => {}
