@@ -3,6 +3,7 @@ pub mod arm;
 pub mod body;
 pub mod bounds;
 pub mod check;
+pub mod cli;
 pub mod config;
 pub mod design;
 pub mod dynamics;

@@ -5,8 +5,8 @@ use std::path::Path;
 use crate::arm::{Arm, indefinite};
 use crate::body::{self, Form};
 use crate::bounds::{Bounds, sampled};
-use crate::check::{Checked, from_loaded};
-use crate::design::{Design, Gains, design, envelope};
+use crate::check::{Checked, from_loaded, vector};
+use crate::design::{Design, Gains, checked, design, envelope};
 use crate::dynamics::mass_matrix;
 use crate::emit::{Module, emit};
 use crate::error::{Error, Faults};
@@ -83,7 +83,7 @@ impl Generation {
         check_count(spec, &lagrangian, &mut faults);
         faults.finish(())?;
 
-        let domain = domain(spec, &arm);
+        let domain = domain(spec, &arm)?;
         let measure = Measure::new(&domain, motion.as_ref(), &arm);
         let reduced = match spec.model {
             ModelSpec::Exact => reduction::exact(&lagrangian),
@@ -155,13 +155,15 @@ fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Faults) {
     }
 }
 
-fn domain(spec: &Spec, arm: &Arm) -> Domain {
-    match (&spec.measure, &spec.motion) {
+fn domain(spec: &Spec, arm: &Arm) -> Result<Domain, Error> {
+    Ok(match (&spec.measure, &spec.motion) {
         (Some(MeasureSpec::Workspace), _) | (None, None) => Domain::Workspace(joint_box(arm)),
         (Some(MeasureSpec::Trajectory), _) => Domain::Trajectory,
-        (Some(MeasureSpec::Tube { position_error }), _) => Domain::Tube(position_error.expand(arm.dof())),
+        (Some(MeasureSpec::Tube { position_error }), _) => {
+            Domain::Tube(checked("measure.tube.position_error", vector(position_error, arm.dof()))?)
+        }
         (None, Some(_)) => Domain::Tube(vec![DEFAULT_TUBE; arm.dof()]),
-    }
+    })
 }
 
 /// Largest desired speed by joint: of the motion, else the joint's limit, else 0.

@@ -10,8 +10,9 @@ use linalg::symmetric_eigenvalues;
 
 use crate::arm::Arm;
 use crate::bounds::Bounds;
+use crate::check::vector;
 use crate::error::Error;
-use crate::spec::{ControlSpec, LawSpec, MatrixSpec, OnFaultSpec, VectorSpec};
+use crate::spec::{ControlSpec, LawSpec, OnFaultSpec};
 
 /// Everything a controller needs beside its model.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,6 +63,8 @@ pub fn design(
         // Compensated for the wrong direction, it counts in full from one side to the other.
         if control.compensate_coulomb { forwards - backwards } else { forwards.max(-backwards) }
     };
+    let layer = |phi| checked("control.boundary_layer", vector(phi, n));
+    let boundary_layer = control.boundary_layer.as_ref().map(layer).transpose()?;
     Ok(Design {
         law: control.law,
         gains,
@@ -69,7 +72,7 @@ pub fn design(
         delta_c,
         k_star,
         disturbance: arm.joints.iter().map(disturbance).collect(),
-        boundary_layer: control.boundary_layer.as_ref().map(|phi| phi.expand(n)),
+        boundary_layer,
         period: control.period,
         torque_limit: arm.joints.iter().map(|joint| joint.limits.torque).collect(),
         coulomb: arm.joints.iter().map(coulomb).collect(),
@@ -80,18 +83,17 @@ pub fn design(
 impl Design {
     /// ΔC1 = k*·I, n×n by rows.
     pub fn delta_c1(&self) -> Vec<Vec<f64>> {
-        MatrixSpec::Scalar(self.k_star).expand(self.delta_c.len())
+        let n = self.delta_c.len();
+        (0..n).map(|i| (0..n).map(|j| if i == j { self.k_star } else { 0.0 }).collect()).collect()
     }
 }
 
-impl VectorSpec {
-    /// One number for each of `n` joints.
-    pub fn expand(&self, n: usize) -> Vec<f64> {
-        match self {
-            VectorSpec::Scalar(x) => vec![*x; n],
-            VectorSpec::List(list) => list.clone(),
-        }
-    }
+/// What the specification's check has left in order.
+///
+/// # Errors
+/// [`Error::Internal`] where it has not.
+pub(crate) fn checked<T>(field: &str, value: Option<T>) -> Result<T, Error> {
+    value.ok_or_else(|| Error::Internal(format!("{field} has the wrong size after its check")))
 }
 
 fn symmetric_part(m: &[Vec<f64>]) -> Vec<Vec<f64>> {

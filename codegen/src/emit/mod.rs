@@ -6,6 +6,8 @@ mod docs;
 mod literal;
 mod statements;
 
+pub(crate) use docs::{domain as domain_in_words, verdict};
+
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 

@@ -69,7 +69,7 @@ impl<M: Model<N, Scalar = T>, T: Real, const N: usize> Law<M, N> for ReportLaw<T
         self.gains.check()?;
         check_nonnegative("delta_c", &self.delta_c)?;
         check_symmetric("delta_c1", &self.delta_c1)?;
-        check_nonnegative("disturbance", &[self.disturbance])?;
+        check_nonnegative("disturbance", &self.disturbance.map(|x| [x; N]))?;
         self.switching.check()?;
         check_coulomb(&self.coulomb)
     }
@@ -187,6 +187,7 @@ mod tests {
             gains: Gains { p12: [[2.0, 0.0], [0.0, 2.0]], ..GAINS },
             delta_c: [[0.1, 0.2], [0.3, 0.4]],
             delta_c1: [[0.5, 0.25], [0.25, 1.0]],
+            disturbance: [0.0; 2],
             switching: Switching::Sign,
             coulomb: [[0.0; 2]; 2],
         };
