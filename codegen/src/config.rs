@@ -9,10 +9,8 @@ use crate::pipeline::Generation;
 /// Generates modules from specifications.
 ///
 /// ```no_run
-/// // build.rs
-/// fn main() {
-///     gramforge::Config::new().spec("specs/arm.json").run_in_build_script();
-/// }
+/// // In build.rs, inside main:
+/// gramforge::Config::new().spec("specs/arm.json").run_in_build_script();
 /// ```
 ///
 /// and in the crate, which depends on `gramforge-runtime`:

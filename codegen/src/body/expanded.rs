@@ -1,5 +1,7 @@
 //! The torque as sums of ψ functions.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::harmonics::Harmonics;
 use crate::arm::Arm;
 use crate::graph::{Builder, Expr, Graph, Variable};
@@ -10,28 +12,27 @@ use crate::reduction::Reduced;
 /// v_jk = q̇_j v_r,k + q̇_k v_r,j and v_jj = q̇_j v_r,j. One line a ψ and one a coefficient, under stable names.
 pub fn expanded(arm: &Arm, lagrangian: &Lagrangian, reduced: &Reduced) -> Graph {
     let builder = Builder::new();
-    let mut harmonics = Harmonics::new(&builder);
+    let psi = functions(&builder, lagrangian, reduced);
+    let alphas: Vec<_> = lagrangian
+        .coefficients
+        .iter()
+        .zip(&reduced.combinations)
+        .map(|(coefficient, terms)| alpha(&builder, &coefficient.name(), terms, &psi))
+        .collect();
     let mut rows: Vec<Vec<Expr>> = vec![Vec::new(); arm.dof()];
-    for (coefficient, terms) in lagrangian.coefficients.iter().zip(&reduced.combinations) {
-        let alpha = terms
-            .iter()
-            .map(|&(l, k)| builder.constant(k) * harmonics.function(&lagrangian.functions[l]))
-            .reduce(|sum, term| sum + term);
+    for (coefficient, alpha) in lagrangian.coefficients.iter().zip(alphas) {
         let Some(alpha) = alpha else { continue };
-        if terms.len() > 1 {
-            alpha.named(&coefficient.name(), true);
-        }
         for place in &coefficient.places {
-            let signed = builder.constant(place.sign) * alpha;
+            let minus = place.sign < 0.0;
             match place.entry {
                 Entry::D(i, j) => {
-                    rows[i].push(signed * builder.input(Variable::Ar(j)));
+                    rows[i].push(signed(minus, alpha * builder.input(Variable::Ar(j))));
                     if i != j {
-                        rows[j].push(signed * builder.input(Variable::Ar(i)));
+                        rows[j].push(signed(minus, alpha * builder.input(Variable::Ar(i))));
                     }
                 }
-                Entry::H(i, j, k) => rows[i].push(signed * velocity_product(&builder, j, k)),
-                Entry::G(i) => rows[i].push(signed),
+                Entry::H(i, j, k) => rows[i].push(signed(minus, alpha * velocity_product(&builder, j, k))),
+                Entry::G(i) => rows[i].push(signed(minus, alpha)),
             }
         }
     }
@@ -42,8 +43,40 @@ pub fn expanded(arm: &Arm, lagrangian: &Lagrangian, reduced: &Reduced) -> Graph 
             torque.unwrap_or(builder.constant(0.0)).named(&format!("tau{i}"), true).id()
         })
         .collect();
-    drop(harmonics);
     builder.finish(&outputs)
+}
+
+/// The functions that occur, by index.
+fn functions<'g>(
+    builder: &'g Builder,
+    lagrangian: &Lagrangian,
+    reduced: &Reduced,
+) -> BTreeMap<usize, Expr<'g>> {
+    let mut harmonics = Harmonics::new(builder);
+    let used: BTreeSet<usize> = reduced.combinations.iter().flatten().map(|&(l, _)| l).collect();
+    used.into_iter().map(|l| (l, harmonics.function(&lagrangian.functions[l]))).collect()
+}
+
+/// Σ k_l ψ_l, named; `None` for the empty sum.
+fn alpha<'g>(
+    builder: &'g Builder,
+    name: &str,
+    terms: &[(usize, f64)],
+    psi: &BTreeMap<usize, Expr<'g>>,
+) -> Option<Expr<'g>> {
+    let term = |&(l, k): &(usize, f64)| psi.get(&l).map(|&psi| builder.constant(k) * psi);
+    let sum = terms.iter().filter_map(term).reduce(|sum, term| sum + term)?;
+    if let Some(positive) = sum.negated() {
+        positive.named(&format!("minus_{name}"), true);
+    } else if !sum.is_constant() {
+        sum.named(name, true);
+    }
+    Some(sum)
+}
+
+/// The sign goes to the product and not to the coefficient: sums absorb it there.
+fn signed(minus: bool, product: Expr<'_>) -> Expr<'_> {
+    if minus { -product } else { product }
 }
 
 fn velocity_product(builder: &Builder, j: usize, k: usize) -> Expr<'_> {

@@ -75,7 +75,12 @@ impl<'g> Harmonics<'g> {
         if let Some(&pair) = self.known.get(&kappa) {
             return pair;
         }
-        let pair = sum(self.multiple(j, k - 1), single);
+        let (sin, cos) = single;
+        let pair = if k == 2 {
+            ((sin + sin) * cos, cos * cos - sin * sin)
+        } else {
+            sum(self.multiple(j, k - 1), single)
+        };
         let named = |sine, value: Expr<'g>| {
             value.named(&Function { kappa, power: [0; MAX_JOINTS], sine }.identifier(), true)
         };

@@ -11,7 +11,7 @@ use crate::spec::{MatrixSpec, VectorSpec};
 /// The faults of arm3.json after `edit` are as many as `lines`, each by its beginning.
 fn expect(edit: impl Fn(&mut Value), lines: &[&str]) {
     let mut value: Value =
-        serde_json::from_str(include_str!("../../../generated/specs/arm3.json")).expect("JSON");
+        serde_json::from_str(include_str!("../../../generated/specs/arm3_xi2.json")).expect("JSON");
     edit(&mut value);
     let loaded = parse(&value.to_string(), Path::new("a.json")).unwrap_or_else(|e| panic!("{e}"));
     let message = match from_loaded(loaded) {

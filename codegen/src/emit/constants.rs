@@ -14,9 +14,9 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
     let psi = module.reduced.selected.iter().map(|&l| module.lagrangian.functions[l].to_string());
     let operations = module.code.operations();
     let counts = [
-        ("MULTIPLICATIONS", operations.mul, "Multiplications in one passivity torque."),
-        ("ADDITIONS", operations.add, "Additions, subtractions and negations in one passivity torque."),
-        ("TRIG_PAIRS", operations.trig_pairs, "Joints whose sine and cosine one passivity torque takes."),
+        ("MULTIPLICATIONS", operations.mul, " Multiplications in one passivity torque."),
+        ("ADDITIONS", operations.add, " Additions, subtractions and negations in one passivity torque."),
+        ("TRIG_PAIRS", operations.trig_pairs, " Joints whose sine and cosine one passivity torque takes."),
     ]
     .map(|(name, number, doc)| {
         let (name, number) = (Ident::new(name, Span::call_site()), count(number));

@@ -90,8 +90,19 @@ pub fn emit(module: &Module) -> Result<String, Error> {
 
         #controller
     };
-    let file = syn::parse2(tokens).map_err(|error| Error::Internal(format!("generated code: {error}")))?;
-    Ok(format!("{}{}", docs::header(module), prettyplease::unparse(&file)))
+    Ok(docs::header(module) + &formatted(tokens)?)
+}
+
+/// The items as text, a blank line between them.
+fn formatted(tokens: TokenStream) -> Result<String, Error> {
+    let file: syn::File =
+        syn::parse2(tokens).map_err(|error| Error::Internal(format!("generated code: {error}")))?;
+    let empty = syn::File { items: Vec::new(), ..file.clone() };
+    let item = |item| {
+        let text = prettyplease::unparse(&syn::File { items: vec![item], ..empty.clone() });
+        text.trim_end().to_string() + "\n"
+    };
+    Ok(file.items.into_iter().map(item).collect::<Vec<_>>().join("\n"))
 }
 
 /// The model's type name: `arm3_xi2` becomes `Arm3Xi2`.

@@ -62,7 +62,7 @@ pub(super) fn body(graph: &Graph) -> Result<TokenStream, Error> {
     let mut statements = trigonometry(graph, &mut names);
     let mut written: Vec<Written> = Vec::with_capacity(graph.nodes.len());
     for (id, &node) in graph.nodes.iter().enumerate() {
-        let expression = write(node, &written)?;
+        let expression = write(graph, node, &written)?;
         let leaf = node.operands().next().is_none();
         let name = graph.names.get(id).and_then(Option::as_ref);
         let own_line = name.is_some_and(|name| name.own_line) || uses[id] > 1 || expression.operations > LONG;
@@ -103,11 +103,12 @@ fn trigonometry(graph: &Graph, names: &mut Names) -> Vec<TokenStream> {
         .collect()
 }
 
-fn write(node: Node, written: &[Written]) -> Result<Written, Error> {
+fn write(graph: &Graph, node: Node, written: &[Written]) -> Result<Written, Error> {
     let input = |slice: &str, j: usize| {
         let (slice, j) = (Ident::new(slice, Span::call_site()), literal::count(j));
         Written::atom(quote!(#slice[#j]))
     };
+    let constant = |id: NodeId| matches!(graph.nodes[id], Node::Constant(_));
     let joined = |a: NodeId, b: NodeId, binding: Binding, right: Binding, operator: TokenStream| {
         let (left, right) = (written[a].within(binding), written[b].within(right));
         let operations = written[a].operations + written[b].operations + 1;
@@ -125,8 +126,14 @@ fn write(node: Node, written: &[Written]) -> Result<Written, Error> {
             let binding = if x < 0.0 { Binding::Unary } else { Binding::Atom };
             Written { tokens: literal::float(x)?, binding, operations: 0 }
         }
+        // A sum, too: a longer sum in front needs no parentheses.
+        Node::Add(a, b) if written[b].binding == Binding::Sum && written[a].binding != Binding::Sum => {
+            joined(b, a, Binding::Sum, Binding::Product, quote!(+))
+        }
         Node::Add(a, b) => joined(a, b, Binding::Sum, Binding::Product, quote!(+)),
         Node::Sub(a, b) => joined(a, b, Binding::Sum, Binding::Product, quote!(-)),
+        // A product rounds alike in either order; constants read better in front.
+        Node::Mul(a, b) if constant(b) => joined(b, a, Binding::Product, Binding::Unary, quote!(*)),
         Node::Mul(a, b) => joined(a, b, Binding::Product, Binding::Unary, quote!(*)),
         Node::Neg(a) => {
             let operand = written[a].within(Binding::Atom);

@@ -113,6 +113,11 @@ impl<'g> Expr<'g> {
         self
     }
 
+    /// True for a constant.
+    pub fn is_constant(self) -> bool {
+        self.value().is_some()
+    }
+
     fn node(self) -> Node {
         self.builder.node(self.id)
     }
@@ -125,7 +130,7 @@ impl<'g> Expr<'g> {
     }
 
     /// The operand of a negation.
-    fn negated(self) -> Option<Self> {
+    pub fn negated(self) -> Option<Self> {
         match self.node() {
             Node::Neg(id) => Some(Expr { id, ..self }),
             _ => None,
@@ -238,7 +243,7 @@ impl Scalar for Expr<'_> {
     }
 
     fn named(self, name: impl FnOnce() -> String) -> Self {
-        if matches!(self.node(), Node::Constant(_)) {
+        if self.is_constant() {
             return self;
         }
         Expr::named(self, &name(), false)

@@ -31,14 +31,20 @@ pub struct Place {
 pub struct Coefficient {
     /// Its terms.
     pub terms: Combination,
-    /// Where it stands; the first place has sign +1 and names it.
+    /// Where it stands.
     pub places: Vec<Place>,
 }
 
 impl Coefficient {
-    /// The first place, after which the coefficient is named: `d12`, `h112`, `g3`.
+    /// The first place with sign +1, after which the coefficient is named: `d12`, `h112`, `g3`; `minus_h112`
+    /// where it stands with sign −1 only. The same for every reduced model of an arm.
     pub fn name(&self) -> String {
-        self.places.first().map(|place| place.entry.to_string()).unwrap_or_default()
+        let positive = self.places.iter().find(|place| place.sign > 0.0);
+        match (positive, self.places.first()) {
+            (Some(place), _) => place.entry.to_string(),
+            (None, Some(place)) => format!("minus_{}", place.entry),
+            (None, None) => String::new(),
+        }
     }
 }
 
@@ -68,6 +74,7 @@ pub(super) fn distinct(dof: usize, entries: Vec<(Entry, Expansion)>) -> Lagrangi
             None => kept.push((expansion, vec![Place { entry, sign: 1.0 }])),
         }
     }
+    kept.iter_mut().for_each(|(expansion, places)| orient(expansion, places));
     let functions: BTreeSet<Function> = kept.iter().flat_map(|(e, _)| e.keys().copied()).collect();
     let index: BTreeMap<Function, usize> = functions.iter().enumerate().map(|(l, &f)| (f, l)).collect();
     let coefficients = kept
@@ -78,6 +85,18 @@ pub(super) fn distinct(dof: usize, entries: Vec<(Entry, Expansion)>) -> Lagrangi
         })
         .collect();
     Lagrangian { dof, functions: functions.into_iter().collect(), coefficients }
+}
+
+/// Turns the coefficient so that its largest term, the first of equal ones, is positive: then sums rarely begin with
+/// a sign, and names do not depend on what a reduction does to the smaller terms.
+fn orient(expansion: &mut Expansion, places: &mut [Place]) {
+    let largest = expansion
+        .values()
+        .fold(0.0, |best: f64, &k| if k.abs() > best.abs() * (1.0 + 1e-9) { k } else { best });
+    if largest < 0.0 {
+        expansion.values_mut().for_each(|k| *k = -*k);
+        places.iter_mut().for_each(|place| place.sign = -place.sign);
+    }
 }
 
 /// +1 or −1 where `b` is ±`a` to rounding.

@@ -18,7 +18,7 @@ pub type Combination = Vec<(usize, f64)>;
 ///
 /// Holds: `functions` is sorted and has no duplicates, the constant first; every entry of D, h and G
 /// that is not identically zero is a place of exactly one coefficient; no two coefficients are equal up
-/// to sign.
+/// to sign; the largest term of each is positive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lagrangian {
     /// Number of joints n.

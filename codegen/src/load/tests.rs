@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::{Loaded, load, parse, schema, spec_hash};
 
-const ARM3: &str = include_str!("../../../generated/specs/arm3.json");
+const ARM3: &str = include_str!("../../../generated/specs/arm3_xi2.json");
 
 fn arm3() -> Value {
     serde_json::from_str(ARM3).expect("JSON")

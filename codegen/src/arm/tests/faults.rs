@@ -6,7 +6,7 @@ use super::arm_of;
 
 /// The faults of arm3.json after `edit`, which must be as many as `parts` and each hold its part.
 fn expect(edit: impl Fn(&mut Value), parts: &[&str]) {
-    let text = include_str!("../../../../generated/specs/arm3.json");
+    let text = include_str!("../../../../generated/specs/arm3_xi2.json");
     let mut value: Value = serde_json::from_str(text).expect("JSON");
     edit(&mut value);
     let message = arm_of(&value).expect_err("a fault").to_string();

@@ -121,21 +121,21 @@ fn agrees_frame_by_frame(path: &Path, name: &str) {
 #[test]
 fn every_sample_arm_is_the_reference_arm() {
     let specs = root().join("generated/specs");
-    agrees(&specs.join("arm3.json"), "threedof", 3);
-    agrees(&specs.join("puma560.json"), "puma560", 6);
+    agrees(&specs.join("arm3_xi2.json"), "threedof", 3);
+    agrees(&specs.join("puma560_xi12.json"), "puma560", 6);
     agrees(&data("puma3.json"), "puma560", 3);
     agrees(&data("stanford.json"), "stanford", 6);
     agrees(&data("ur5.json"), "ur5", 6);
     agrees(&data("panda.json"), "panda", 7);
-    agrees_frame_by_frame(&specs.join("arm3.json"), "threedof");
-    agrees_frame_by_frame(&specs.join("puma560.json"), "puma560");
+    agrees_frame_by_frame(&specs.join("arm3_xi2.json"), "threedof");
+    agrees_frame_by_frame(&specs.join("puma560_xi12.json"), "puma560");
     agrees_frame_by_frame(&data("stanford.json"), "stanford");
     agrees_frame_by_frame(&data("panda.json"), "panda");
 }
 
 #[test]
 fn motors_reach_the_joints_by_the_square_of_their_gears() {
-    let arm = build(&root().join("generated/specs/puma560.json")).arm;
+    let arm = build(&root().join("generated/specs/puma560_xi12.json")).arm;
     let truth = reference("puma560");
     for (i, joint) in arm.joints.iter().enumerate() {
         let armature = truth["motor_inertia"]["G2Jm"][i].as_f64().expect("a number");
@@ -151,9 +151,9 @@ fn motors_reach_the_joints_by_the_square_of_their_gears() {
 
 #[test]
 fn the_broken_triangle_of_the_published_puma_is_a_warning() {
-    let warnings = build(&root().join("generated/specs/puma560.json")).warnings;
+    let warnings = build(&root().join("generated/specs/puma560_xi12.json")).warnings;
     assert!(warnings.iter().any(|w| w.contains("arm.dh.links[2].inertia") && w.contains("triangle")));
-    assert!(build(&root().join("generated/specs/arm3.json")).warnings.is_empty());
+    assert!(build(&root().join("generated/specs/arm3_xi2.json")).warnings.is_empty());
 }
 
 #[test]
@@ -187,7 +187,7 @@ fn modified_tables_describe_the_same_arm_as_standard_ones() {
 
 #[test]
 fn a_payload_joins_the_last_body() {
-    let path = root().join("generated/specs/arm3.json");
+    let path = root().join("generated/specs/arm3_xi2.json");
     let bare = build(&path).arm;
     let mut value: Value =
         serde_json::from_str(&std::fs::read_to_string(&path).expect("a file")).expect("JSON");
