@@ -9,4 +9,6 @@ pub mod lagrangian;
 pub mod measure;
 pub mod motion;
 pub mod reduction;
+pub mod report;
+pub mod simulate;
 pub mod spec;
