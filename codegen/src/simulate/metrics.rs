@@ -30,7 +30,7 @@ pub struct Metrics {
     pub faulted_steps: usize,
     /// Instant from which the run could not go on, s: the state overflowed in the period after it, reached a position
     /// where the mass matrix is not positive definite, or a joint had gone a full turn (6.28 m) beyond its initial
-    /// error. `None` for a run to the end.
+    /// error. `None` for a run to the end: a loop that oscillates without growing goes on, and never converges.
     pub diverged_at: Option<f64>,
 }
 
@@ -44,12 +44,10 @@ impl Metrics {
         diverged_at: Option<f64>,
     ) -> Self {
         let errors = &trace.position_error;
-        // The largest number that a mean can be taken of; a trace without instants has no error either.
         let count = errors.len().max(1) as f64;
         let mean_square: Vec<f64> =
             (0..n).map(|i| errors.iter().map(|q_e| q_e[i] * q_e[i]).sum::<f64>() / count).collect();
-        let variation =
-            |i: usize| trace.torque.windows(2).map(|pair| (pair[1][i] - pair[0][i]).abs()).sum();
+        let variation = |i: usize| trace.torque.windows(2).map(|pair| (pair[1][i] - pair[0][i]).abs()).sum();
         let peak = |i: usize| trace.torque.iter().fold(0.0_f64, |peak, torque| peak.max(torque[i].abs()));
         Self {
             rms_error: mean_square.iter().map(|&square| libm::sqrt(square)).collect(),

@@ -3,6 +3,8 @@
 //! The plant is always the exact arm; the law under test knows only the reduced model.
 
 mod array;
+#[cfg(test)]
+pub(crate) mod example;
 mod metrics;
 mod models;
 mod reference;
@@ -161,7 +163,11 @@ fn steps(scenario: &Scenario) -> Result<(u32, u32), Error> {
     let duration = simulation.duration.unwrap_or(motion.duration());
     let refuse = |field: &str, problem: String, mend: &str| Err(Error::input(file, field, problem, mend));
     if !(duration.is_finite() && duration > 0.0) {
-        return refuse("simulation.duration", format!("is {duration} s"), "write a positive number of seconds");
+        return refuse(
+            "simulation.duration",
+            format!("is {duration} s"),
+            "write a positive number of seconds",
+        );
     }
     let substeps = simulation.substeps.unwrap_or(SUBSTEPS);
     if substeps == 0 {
@@ -170,11 +176,14 @@ fn steps(scenario: &Scenario) -> Result<(u32, u32), Error> {
     // A duration of whole periods must not get one more from rounding.
     let periods = libm::ceil(duration / design.period - 1e-9).max(1.0);
     let total = periods * substeps as f64;
-    // Not `total > …`: a period of zero gives NaN or infinity.
-    if !(total <= MOST_STEPS) {
+    // A period of zero gives infinity or NaN.
+    if total.is_nan() || total > MOST_STEPS {
         return refuse(
             "simulation",
-            format!("{duration} s in periods of {} s with {substeps} substeps are {total:e} steps", design.period),
+            format!(
+                "{duration} s in periods of {} s with {substeps} substeps are {total:e} steps",
+                design.period
+            ),
             "simulate a shorter time, or take fewer substeps, to stay under 1e8 steps",
         );
     }
