@@ -71,6 +71,11 @@ impl Faults {
         self.list.is_empty()
     }
 
+    /// Number of faults so far.
+    pub fn count(&self) -> usize {
+        self.list.len()
+    }
+
     /// `Ok(value)` while nothing is wrong, all faults otherwise.
     ///
     /// # Errors

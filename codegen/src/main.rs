@@ -1,2 +1,7 @@
 //! The `gramforge` command.
-fn main() {}
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    gramforge::cli::run()
+}

@@ -31,6 +31,7 @@
 //!     gains: Gains { p12: [[4.0]], damping: [[5.1]], pqq: [[0.25]] },
 //!     delta_c: [[0.0]],
 //!     delta_c1: [[0.0]],
+//!     disturbance: [0.0],
 //!     switching: Switching::BoundaryLayer([0.05]),
 //!     coulomb: [[0.0, 0.0]],
 //! };

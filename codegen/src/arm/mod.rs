@@ -1,15 +1,29 @@
 //! The arm: validated joints and inertias in one normal form, whatever file they came from.
 
+mod body;
+mod definite;
+mod dh;
+mod drive;
+mod place;
 mod transform;
+mod urdf;
+mod validate;
 
 pub use crate::spec::JointKind;
+pub use definite::{Indefinite, indefinite};
 pub use transform::Transform;
+
+use crate::error::Faults;
+use crate::load::Loaded;
+use crate::spec::ArmSpec;
+use place::Place;
 
 /// A serial arm of 1 to 8 joints.
 ///
 /// Holds after construction: every number is finite, every joint moves about or along the z axis of
-/// its own frame, masses are not negative, inertias are positive semidefinite, D(q) is positive
-/// definite over the joint limits, fixed bodies and the payload are merged into the moving ones.
+/// its own frame, masses are not negative, inertias are positive semidefinite, fixed bodies and the
+/// payload are merged into the moving ones. That D(q) is positive definite over the joint limits
+/// takes the dynamics to see: [`indefinite`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arm {
     /// Acceleration of gravity in the base frame, m/s².
@@ -65,9 +79,85 @@ pub struct Limits {
     pub torque: Option<f64>,
 }
 
+/// An arm, and what is odd about its description without being wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Built {
+    /// The arm.
+    pub arm: Arm,
+    /// One sentence each, naming file, field and value.
+    pub warnings: Vec<String>,
+}
+
+/// Largest number of joints.
+pub const MOST_JOINTS: usize = 8;
+
 impl Arm {
+    /// Builds the arm of a specification from its DH table or its URDF file.
+    ///
+    /// Everything that is wrong goes to `faults`; `None` where something is.
+    pub fn from_spec(loaded: &Loaded, faults: &mut Faults) -> Option<Built> {
+        let before = faults.count();
+        let spec = &loaded.spec.arm;
+        let mut warnings = Vec::new();
+        let arm = match (&spec.dh, &spec.urdf) {
+            (Some(table), None) => {
+                refuse_urdf_fields(spec, faults);
+                dh::build(table, &loaded.path, faults, &mut warnings)
+            }
+            (None, Some(file)) => urdf::build(spec, &loaded.resolve(file), faults, &mut warnings),
+            (Some(_), Some(_)) => {
+                faults.push("arm", "has both `dh` and `urdf`", "keep the one that describes the arm");
+                None
+            }
+            (None, None) => {
+                faults.push(
+                    "arm",
+                    "has neither `dh` nor `urdf`",
+                    "add a DH table or the path of a URDF file",
+                );
+                None
+            }
+        };
+        let payload = spec.payload.as_ref().map(|payload| {
+            let place = Place::new(&loaded.path, "arm.payload");
+            validate::payload(payload, &place, faults, &mut warnings)
+        });
+        let mut arm = arm?;
+        if let Some(gravity) = spec.gravity {
+            arm.gravity = gravity;
+        }
+        if let (Some(payload), Some(last)) = (payload, arm.joints.last_mut()) {
+            last.body = last.body.plus(&payload.moved(&arm.tip));
+        }
+        let sane = |t: &Transform| t.translation.iter().all(|v| v.is_finite());
+        if !arm.joints.iter().all(|j| j.body.is_finite() && sane(&j.pose)) || !sane(&arm.tip) {
+            faults.push("arm", "holds lengths and masses whose products overflow", "write them in SI units");
+        }
+        (faults.count() == before).then_some(Built { arm, warnings })
+    }
+
     /// Number of joints n.
     pub fn dof(&self) -> usize {
         self.joints.len()
     }
 }
+
+/// Acceleration of gravity where the specification is silent, m/s².
+const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
+
+fn refuse_urdf_fields(spec: &ArmSpec, faults: &mut Faults) {
+    let given =
+        [("tip", spec.tip.is_some()), ("lock", !spec.lock.is_empty()), ("joints", !spec.joints.is_empty())];
+    for (name, present) in given {
+        if present {
+            faults.push(
+                format!("arm.{name}"),
+                "goes with `urdf` alone, and the arm is a DH table",
+                "remove it; a DH table says the same in its links",
+            );
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

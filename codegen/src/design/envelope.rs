@@ -1,8 +1,10 @@
 //! What errors and speeds can reach while V does not grow, equations (41)–(43).
 
+use super::checked;
 use super::gains::Gains;
 use super::linalg::inverse;
 use crate::arm::Arm;
+use crate::check::vector;
 use crate::dynamics::mass_matrix;
 use crate::error::Error;
 use crate::spec::InitialErrorSpec;
@@ -39,8 +41,8 @@ pub fn envelope(
 ) -> Result<Envelope, Error> {
     let n = arm.dof();
     let singular = |what: &str| Error::Internal(format!("{what} is singular after its check"));
-    let q_0 = initial.position.expand(n);
-    let qd_0 = initial.velocity.expand(n);
+    let q_0 = checked("control.initial_error.position", vector(&initial.position, n))?;
+    let qd_0 = checked("control.initial_error.velocity", vector(&initial.velocity, n))?;
     let s_0: Vec<f64> = (0..n)
         .map(|i| qd_0[i] + gains.p12[i].iter().zip(&q_0).map(|(p, q)| p.abs() * q).sum::<f64>())
         .collect();

@@ -10,8 +10,9 @@ use linalg::symmetric_eigenvalues;
 
 use crate::arm::Arm;
 use crate::bounds::Bounds;
+use crate::check::vector;
 use crate::error::Error;
-use crate::spec::{ControlSpec, LawSpec, OnFaultSpec, VectorSpec};
+use crate::spec::{ControlSpec, LawSpec, OnFaultSpec};
 
 /// Everything a controller needs beside its model.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +27,8 @@ pub struct Design {
     pub delta_c: Vec<Vec<f64>>,
     /// The k of ΔC1 = k·I: k* = λ_max(sym ΔC), N·m·s/rad.
     pub k_star: f64,
+    /// Bound on the Coulomb friction that the command does not cancel, by joint, N·m or N.
+    pub disturbance: Vec<f64>,
     /// φ of the boundary layer by joint; `None` for the sign function.
     pub boundary_layer: Option<Vec<f64>>,
     /// Control period, s.
@@ -55,13 +58,21 @@ pub fn design(
     let coulomb = |joint: &crate::arm::Joint| {
         if control.compensate_coulomb { joint.coulomb_friction } else { [0.0; 2] }
     };
+    let disturbance = |joint: &crate::arm::Joint| {
+        let [forwards, backwards] = joint.coulomb_friction;
+        // Compensated for the wrong direction, it counts in full from one side to the other.
+        if control.compensate_coulomb { forwards - backwards } else { forwards.max(-backwards) }
+    };
+    let layer = |phi| checked("control.boundary_layer", vector(phi, n));
+    let boundary_layer = control.boundary_layer.as_ref().map(layer).transpose()?;
     Ok(Design {
         law: control.law,
         gains,
         envelope,
         delta_c,
         k_star,
-        boundary_layer: control.boundary_layer.as_ref().map(|phi| phi.expand(n)),
+        disturbance: arm.joints.iter().map(disturbance).collect(),
+        boundary_layer,
         period: control.period,
         torque_limit: arm.joints.iter().map(|joint| joint.limits.torque).collect(),
         coulomb: arm.joints.iter().map(coulomb).collect(),
@@ -69,14 +80,20 @@ pub fn design(
     })
 }
 
-impl VectorSpec {
-    /// One number for each of `n` joints.
-    pub fn expand(&self, n: usize) -> Vec<f64> {
-        match self {
-            VectorSpec::Scalar(x) => vec![*x; n],
-            VectorSpec::List(list) => list.clone(),
-        }
+impl Design {
+    /// ΔC1 = k*·I, n×n by rows.
+    pub fn delta_c1(&self) -> Vec<Vec<f64>> {
+        let n = self.delta_c.len();
+        (0..n).map(|i| (0..n).map(|j| if i == j { self.k_star } else { 0.0 }).collect()).collect()
     }
+}
+
+/// What the specification's check has left in order.
+///
+/// # Errors
+/// [`Error::Internal`] where it has not.
+pub(crate) fn checked<T>(field: &str, value: Option<T>) -> Result<T, Error> {
+    value.ok_or_else(|| Error::Internal(format!("{field} has the wrong size after its check")))
 }
 
 fn symmetric_part(m: &[Vec<f64>]) -> Vec<Vec<f64>> {

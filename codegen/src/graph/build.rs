@@ -149,6 +149,8 @@ impl Add for Expr<'_> {
             (Some(a), Some(b)) => return self.constant(a + b),
             (Some(0.0), None) => return other,
             (None, Some(0.0)) => return self,
+            (Some(a), None) if a < 0.0 => return other - self.constant(-a),
+            (None, Some(b)) if b < 0.0 => return self - self.constant(-b),
             _ => {}
         }
         match (self.negated(), other.negated()) {
@@ -173,6 +175,7 @@ impl Sub for Expr<'_> {
             (Some(a), Some(b)) => return self.constant(a - b),
             (Some(0.0), None) => return -other,
             (None, Some(0.0)) => return self,
+            (None, Some(b)) if b < 0.0 => return self + self.constant(-b),
             _ => {}
         }
         match (self.negated(), other.negated()) {

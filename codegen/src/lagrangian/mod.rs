@@ -4,10 +4,12 @@ mod coefficients;
 mod expand;
 mod function;
 mod transform;
+mod values;
 
 pub use coefficients::{Coefficient, Entry, Place};
 pub use expand::{Expansion, expand};
 pub use function::{Function, MAX_JOINTS};
+pub use values::Values;
 
 /// A linear combination Σ k_l ψ_l: pairs (index l into [`Lagrangian::functions`], k_l), by ascending l, without zeros.
 pub type Combination = Vec<(usize, f64)>;

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::lagrangian::{Lagrangian, evaluate};
+use crate::lagrangian::Lagrangian;
 use crate::measure::Measure;
 
 /// Values at the points, each times the square root of the point's weight, so that ∫ a b is a dot product.
@@ -35,12 +35,6 @@ impl Samples {
             })
             .collect();
         Self { functions, coefficients }
-    }
-
-    /// The coefficients at one point, without weight; shared by checks that need single values.
-    pub fn at(lagrangian: &Lagrangian, q: &[f64]) -> Vec<f64> {
-        let psi = lagrangian.evaluate_functions(q);
-        lagrangian.coefficients.iter().map(|c| evaluate(&c.terms, &psi)).collect()
     }
 }
 

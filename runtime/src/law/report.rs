@@ -9,7 +9,7 @@ use crate::{ConfigError, Model, Real};
 
 /// Equation (16) with a simplified model, less ΔC1 s and a switching term that outweighs what the model leaves out:
 ///
-/// − diag(sgn s) \[ΔD(|q̈_d| + P12|q̇_e|) + (ΔB + ΔC)|q̇| + ΔG\].
+/// − diag(sgn s) \[ΔD(|q̈_d| + P12|q̇_e|) + (ΔB + ΔC)|q̇| + ΔG + disturbance\].
 ///
 /// ΔD, ΔB and ΔG are the model's own [`bounds`](Model::bounds).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +21,8 @@ pub struct ReportLaw<T, const N: usize> {
     /// ΔC1, by rows, N·m·s/rad: symmetric, and ΔC1 + sym(δC) positive definite for every |δC| ≤ ΔC, which k·I is for
     /// every k > λ_max(sym ΔC).
     pub delta_c1: [[T; N]; N],
+    /// Bound on torques that no model has, such as Coulomb friction: added to ΔG, N·m, not negative.
+    pub disturbance: [T; N],
     /// sgn, or the boundary layer.
     pub switching: Switching<T, N>,
     /// Coulomb friction of each joint, [forwards ≥ 0, backwards ≤ 0], N·m, added in the desired direction of motion
@@ -45,7 +47,7 @@ impl<T: Real, const N: usize> ReportLaw<T, N> {
         let inertia = mat_vec(&bounds.d, &acceleration);
         let speed = abs(&sample.qd);
         let coriolis = mat_vec(&self.delta_c, &speed);
-        from_fn(|i| inertia[i] + bounds.b[i] * speed[i] + coriolis[i] + bounds.g[i])
+        from_fn(|i| inertia[i] + bounds.b[i] * speed[i] + coriolis[i] + bounds.g[i] + self.disturbance[i])
     }
 }
 
@@ -67,6 +69,7 @@ impl<M: Model<N, Scalar = T>, T: Real, const N: usize> Law<M, N> for ReportLaw<T
         self.gains.check()?;
         check_nonnegative("delta_c", &self.delta_c)?;
         check_symmetric("delta_c1", &self.delta_c1)?;
+        check_nonnegative("disturbance", &self.disturbance.map(|x| [x; N]))?;
         self.switching.check()?;
         check_coulomb(&self.coulomb)
     }
@@ -92,7 +95,14 @@ mod tests {
         let delta_c = TwoLink::<f64>::perturbed().bounds.coriolis(&[speed; 2]);
         // The trace and the two off-diagonals together are at least λ_max(sym ΔC).
         let k = delta_c.iter().flatten().sum::<f64>();
-        ReportLaw { gains: GAINS, delta_c, delta_c1: [[k, 0.0], [0.0, k]], switching, coulomb: [[0.0; 2]; 2] }
+        ReportLaw {
+            gains: GAINS,
+            delta_c,
+            delta_c1: [[k, 0.0], [0.0, k]],
+            disturbance: [0.0; 2],
+            switching,
+            coulomb: [[0.0; 2]; 2],
+        }
     }
 
     fn states() -> impl Iterator<Item = Sample<f64, 2>> {
@@ -177,6 +187,7 @@ mod tests {
             gains: Gains { p12: [[2.0, 0.0], [0.0, 2.0]], ..GAINS },
             delta_c: [[0.1, 0.2], [0.3, 0.4]],
             delta_c1: [[0.5, 0.25], [0.25, 1.0]],
+            disturbance: [0.0; 2],
             switching: Switching::Sign,
             coulomb: [[0.0; 2]; 2],
         };

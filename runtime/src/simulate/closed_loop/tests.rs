@@ -24,7 +24,14 @@ fn report_law(switching: Switching<f64, 2>) -> ReportLaw<f64, 2> {
     let delta_c = TwoLink::<f64>::perturbed().bounds.coriolis(&[3.0; 2]);
     // The largest row sum of sym ΔC is at least its largest eigenvalue.
     let k = delta_c[0][0] + 0.5 * (delta_c[0][1] + delta_c[1][0]) + delta_c[1][1];
-    ReportLaw { gains: GAINS, delta_c, delta_c1: [[k, 0.0], [0.0, k]], switching, coulomb: FREE }
+    ReportLaw {
+        gains: GAINS,
+        delta_c,
+        delta_c1: [[k, 0.0], [0.0, k]],
+        disturbance: [0.0; 2],
+        switching,
+        coulomb: FREE,
+    }
 }
 
 fn run<L: Law<TwoLink<f64>, 2>>(
@@ -115,6 +122,7 @@ fn works_in_single_precision() {
         gains,
         delta_c: [[0.0; 2]; 2],
         delta_c1: [[0.0; 2]; 2],
+        disturbance: [0.0; 2],
         switching: Switching::BoundaryLayer([0.1; 2]),
         coulomb: [[0.0; 2]; 2],
     };

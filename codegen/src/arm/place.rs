@@ -1,0 +1,64 @@
+//! Where in the user's files something stands.
+
+use std::path::{Path, PathBuf};
+
+use crate::error::Faults;
+
+/// A field of a file, such as `arm.dh.links[1]` of a specification or `joint[elbow]` of a URDF.
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    file: PathBuf,
+    field: String,
+}
+
+impl Place {
+    /// The field `field` of `file`.
+    pub fn new(file: &Path, field: impl Into<String>) -> Self {
+        Self { file: file.to_path_buf(), field: field.into() }
+    }
+
+    /// The field `name` inside this one.
+    pub fn at(&self, name: &str) -> Self {
+        let field = if self.field.is_empty() { name.to_string() } else { format!("{}.{name}", self.field) };
+        Self { file: self.file.clone(), field }
+    }
+
+    /// Adds a fault here.
+    pub fn fault(&self, faults: &mut Faults, problem: impl Into<String>, mend: impl Into<String>) {
+        faults.push_in(&self.file, &self.field, problem, mend);
+    }
+
+    /// Adds a warning here.
+    pub fn warn(&self, warnings: &mut Vec<String>, what: &str) {
+        warnings.push(format!("{}: {}: {what}", self.file.display(), self.field));
+    }
+
+    /// `value`, after a fault where it is not finite.
+    pub fn finite(&self, value: f64, faults: &mut Faults) -> Option<f64> {
+        if value.is_finite() {
+            return Some(value);
+        }
+        self.fault(faults, format!("is {value}"), "write a finite number");
+        None
+    }
+
+    /// `value`, after a fault where it is negative or not finite.
+    pub fn not_negative(&self, value: f64, unit: &str, faults: &mut Faults) -> Option<f64> {
+        let value = self.finite(value, faults)?;
+        if value >= 0.0 {
+            return Some(value);
+        }
+        self.fault(faults, format!("is {value}"), format!("write a number of at least 0, in {unit}"));
+        None
+    }
+
+    /// `value`, after a fault where it is not positive or not finite.
+    pub fn positive(&self, value: f64, unit: &str, faults: &mut Faults) -> Option<f64> {
+        let value = self.finite(value, faults)?;
+        if value > 0.0 {
+            return Some(value);
+        }
+        self.fault(faults, format!("is {value}"), format!("write a number above 0, in {unit}"));
+        None
+    }
+}

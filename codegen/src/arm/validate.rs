@@ -1,0 +1,85 @@
+//! Whether numbers can belong to a rigid body.
+
+use nalgebra::Matrix3;
+
+use super::Body;
+use super::body::{Matrix, matrix};
+use super::place::Place;
+use crate::error::Faults;
+use crate::spec::PayloadSpec;
+
+/// Relative size below which a negative moment passes for rounding of printed tables.
+const SLACK: f64 = 1e-9;
+
+/// Rounding of Σ − m c cᵀ relative to Σ.
+const CANCELLATION: f64 = 1e-12;
+
+/// Checks a body as given, in whatever frame: mass ≥ 0, no first moment without mass, inertia about the centre of
+/// mass positive semidefinite; a broken triangle inequality is a warning, for published tables break it.
+///
+/// `inertia` is the name of the field from which the inertia comes.
+pub(super) fn body(
+    body: &Body,
+    inertia: &str,
+    place: &Place,
+    faults: &mut Faults,
+    warnings: &mut Vec<String>,
+) {
+    if !body.is_finite() {
+        place.fault(
+            faults,
+            "has inertial data that are not finite or overflow",
+            "write finite numbers in SI units",
+        );
+        return;
+    }
+    if place.at("mass").not_negative(body.mass, "kg", faults).is_none() {
+        return;
+    }
+    if body.mass == 0.0 && body.first_moment != [0.0; 3] {
+        let problem = format!("is {:?} although the mass is 0", body.first_moment);
+        place.at("first_moment").fault(faults, problem, "write the mass, or a first moment of zero");
+        return;
+    }
+    let tensor = body.inertia_at_com();
+    let scale = largest(&tensor);
+    let slack = SLACK * scale + CANCELLATION * largest(&body.pseudo_inertia);
+    let moments = principal_moments(&tensor);
+    if moments[0] < -slack {
+        let problem = format!("gives the principal moment {:.6e} kg·m² about the centre of mass", moments[0]);
+        let mend = "write an inertia without negative moments; check signs, units and the point it refers to";
+        place.at(inertia).fault(faults, problem, mend);
+    } else if moments[2] > moments[0] + moments[1] + slack {
+        let what = format!(
+            "the principal moments {:.6e}, {:.6e}, {:.6e} kg·m² break the triangle inequality; \
+             no rigid body has them, they are used as given",
+            moments[0], moments[1], moments[2]
+        );
+        place.at(inertia).warn(warnings, &what);
+    }
+}
+
+/// The body of a payload, in the tip frame, after its checks.
+pub(super) fn payload(
+    spec: &PayloadSpec,
+    place: &Place,
+    faults: &mut Faults,
+    warnings: &mut Vec<String>,
+) -> Body {
+    let inertia = spec.inertia.as_ref().map_or([[0.0; 3]; 3], matrix);
+    let out = Body::from_com(spec.mass, spec.com, inertia);
+    body(&out, "inertia", place, faults, warnings);
+    out
+}
+
+fn largest(m: &Matrix) -> f64 {
+    m.iter().flatten().fold(0.0, |most, v| v.abs().max(most))
+}
+
+/// Eigenvalues in rising order; the entries must be finite.
+fn principal_moments(tensor: &Matrix) -> [f64; 3] {
+    let values = Matrix3::from_fn(|i, j| tensor[i][j]).symmetric_eigenvalues();
+    let mut out = [values[0], values[1], values[2]];
+    out.sort_by(f64::total_cmp);
+    out
+}

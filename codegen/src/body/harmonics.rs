@@ -1,0 +1,91 @@
+//! ψ functions from one sine and cosine a joint, by products.
+
+use std::collections::BTreeMap;
+
+use crate::graph::{Builder, Expr, Variable};
+use crate::lagrangian::{Function, MAX_JOINTS};
+
+type Kappa = [i8; MAX_JOINTS];
+
+/// Builds ψ functions, each sum of angles once.
+pub(super) struct Harmonics<'g> {
+    builder: &'g Builder,
+    known: BTreeMap<Kappa, (Expr<'g>, Expr<'g>)>,
+}
+
+impl<'g> Harmonics<'g> {
+    pub(super) fn new(builder: &'g Builder) -> Self {
+        Self { builder, known: BTreeMap::new() }
+    }
+
+    /// ψ as a node with a line of its own, named after the function.
+    pub(super) fn function(&mut self, psi: &Function) -> Expr<'g> {
+        let mut value = self.builder.constant(1.0);
+        for (j, &power) in psi.power.iter().enumerate() {
+            for _ in 0..power {
+                value = value * self.builder.input(Variable::Q(j));
+            }
+        }
+        if psi.kappa != [0; MAX_JOINTS] {
+            let (sin, cos) = self.sin_cos(psi.kappa);
+            value = value * if psi.sine { sin } else { cos };
+        }
+        value.named(&psi.identifier(), true)
+    }
+
+    /// (sin κ·q, cos κ·q): the last joint's multiple is added to the angle of the joints before it.
+    fn sin_cos(&mut self, kappa: Kappa) -> (Expr<'g>, Expr<'g>) {
+        if let Some(&pair) = self.known.get(&kappa) {
+            return pair;
+        }
+        let last = kappa.iter().rposition(|&k| k != 0);
+        let pair = match last {
+            None => (self.builder.constant(0.0), self.builder.constant(1.0)),
+            Some(j) => {
+                let mut before = kappa;
+                before[j] = 0;
+                let turned = self.multiple(j, kappa[j]);
+                if before == [0; MAX_JOINTS] { turned } else { sum(self.sin_cos(before), turned) }
+            }
+        };
+        let named = |sine, value: Expr<'g>| {
+            value.named(&Function { kappa, power: [0; MAX_JOINTS], sine }.identifier(), true)
+        };
+        let pair = if last.is_some() && kappa.iter().find(|&&k| k != 0).is_some_and(|&k| k > 0) {
+            (named(true, pair.0), named(false, pair.1))
+        } else {
+            pair
+        };
+        self.known.insert(kappa, pair);
+        pair
+    }
+
+    /// (sin k q_j, cos k q_j).
+    fn multiple(&mut self, j: usize, k: i8) -> (Expr<'g>, Expr<'g>) {
+        if k < 0 {
+            let (sin, cos) = self.multiple(j, -k);
+            return (-sin, cos);
+        }
+        let single = self.builder.sin_cos(j);
+        if k <= 1 {
+            return single;
+        }
+        let mut kappa = [0; MAX_JOINTS];
+        kappa[j] = k;
+        if let Some(&pair) = self.known.get(&kappa) {
+            return pair;
+        }
+        let pair = sum(self.multiple(j, k - 1), single);
+        let named = |sine, value: Expr<'g>| {
+            value.named(&Function { kappa, power: [0; MAX_JOINTS], sine }.identifier(), true)
+        };
+        let pair = (named(true, pair.0), named(false, pair.1));
+        self.known.insert(kappa, pair);
+        pair
+    }
+}
+
+/// Sine and cosine of a + b.
+fn sum<'g>(a: (Expr<'g>, Expr<'g>), b: (Expr<'g>, Expr<'g>)) -> (Expr<'g>, Expr<'g>) {
+    (a.0 * b.1 + a.1 * b.0, a.1 * b.1 - a.0 * b.0)
+}

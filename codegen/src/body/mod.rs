@@ -1,0 +1,47 @@
+//! Bodies of the passivity torque D̂ a_r + Ĉ v_r + Ĝ as expression graphs.
+
+mod expanded;
+mod harmonics;
+mod recursive;
+
+pub use expanded::expanded;
+pub use recursive::recursive;
+
+use crate::arm::Arm;
+use crate::graph::Graph;
+use crate::lagrangian::Lagrangian;
+use crate::reduction;
+
+/// Where expansions longer than this cannot compete with the recursion: its cost grows with n alone.
+const LONG: usize = 4000;
+
+/// How a body computes the torque.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// Sums of ψ functions.
+    Expanded,
+    /// The polarised Newton–Euler recursion.
+    Recursive,
+}
+
+impl Form {
+    /// As one word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Form::Expanded => "expanded",
+            Form::Recursive => "recursive",
+        }
+    }
+}
+
+/// The exact torque in the form with fewer operations; the recursion where they tie.
+pub fn exact(arm: &Arm, lagrangian: &Lagrangian) -> (Form, Graph) {
+    let recursive = recursive(arm);
+    if lagrangian.terms() <= LONG {
+        let expanded = expanded(arm, lagrangian, &reduction::exact(lagrangian));
+        if expanded.operations().arithmetic() < recursive.operations().arithmetic() {
+            return (Form::Expanded, expanded);
+        }
+    }
+    (Form::Recursive, recursive)
+}

@@ -1,0 +1,116 @@
+//! Gains and the other numbers of the control law.
+
+use nalgebra::DMatrix;
+
+use super::shape::{entries, has, matrix};
+use crate::error::Faults;
+use crate::spec::{ControlSpec, MatrixSpec};
+
+/// Rounding that passes for symmetry or for zero, relative to the largest entry.
+const SLACK: f64 = 1e-9;
+
+/// Checks period, boundary layer, initial errors, and the gains: W, Pqq, Ω symmetric positive definite, P12 = Pqq⁻¹Ω
+/// symmetric and element-wise nonnegative.
+pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut Faults) {
+    if control.period <= 0.0 {
+        faults.push("control.period", format!("is {}", control.period), "write a number above 0, in s");
+    }
+    if let Some(layer) = &control.boundary_layer {
+        let wanted = "a number above 0, or leave the field out for the sign function";
+        entries("control.boundary_layer", layer, joints, |v| v > 0.0, wanted, faults);
+    }
+    let initial = &control.initial_error;
+    let wanted = "a number of at least 0";
+    let (position, velocity) = ("control.initial_error.position", "control.initial_error.velocity");
+    entries(position, &initial.position, joints, |v| v >= 0.0, wanted, faults);
+    entries(velocity, &initial.velocity, joints, |v| v >= 0.0, wanted, faults);
+    definite("control.W", &control.w, joints, faults);
+    let pqq = definite("control.Pqq", &control.pqq, joints, faults);
+    let omega = definite("control.Omega", &control.omega, joints, faults);
+    if let (Some(pqq), Some(omega)) = (pqq, omega) {
+        p12(pqq, &omega, faults);
+    }
+}
+
+/// The matrix of a gain, if it is symmetric positive definite and of the right size.
+fn definite(
+    field: &str,
+    spec: &MatrixSpec,
+    joints: Option<usize>,
+    faults: &mut Faults,
+) -> Option<DMatrix<f64>> {
+    let wanted =
+        "write a positive number, a list of positive numbers or a symmetric positive definite matrix";
+    match spec {
+        MatrixSpec::Scalar(value) if *value <= 0.0 => {
+            faults.push(field, format!("is {value}"), wanted);
+            return None;
+        }
+        MatrixSpec::Diagonal(list) if list.iter().any(|v| *v <= 0.0) => {
+            for (i, value) in list.iter().enumerate().filter(|(_, v)| **v <= 0.0) {
+                faults.push(format!("{field}[{i}]"), format!("is {value}"), "write a positive number");
+            }
+            return None;
+        }
+        _ => {}
+    }
+    let n = joints?;
+    let Some(rows) = matrix(spec, n) else {
+        let found = match spec {
+            MatrixSpec::Full(rows) => {
+                let widths: Vec<usize> = rows.iter().map(Vec::len).collect();
+                format!("has {} rows of {widths:?} entries", rows.len())
+            }
+            MatrixSpec::Diagonal(list) => has(list.len()),
+            MatrixSpec::Scalar(_) => String::new(),
+        };
+        faults.push(field, found, format!("write one number, {n} numbers or {n} rows of {n} numbers"));
+        return None;
+    };
+    let matrix = DMatrix::from_fn(n, n, |i, j| rows.get(i).and_then(|r| r.get(j)).copied().unwrap_or(0.0));
+    if let Some((i, j)) = asymmetry(&matrix) {
+        let problem = format!("is not symmetric: {} and {}", matrix[(i, j)], matrix[(j, i)]);
+        faults.push(
+            format!("{field}[{i}][{j}]"),
+            problem,
+            "write the same number on both sides of the diagonal",
+        );
+        return None;
+    }
+    if matrix.clone().cholesky().is_none() {
+        faults.push(field, format!("is {rows:?}, which is not positive definite"), wanted);
+        return None;
+    }
+    Some(matrix)
+}
+
+/// The first pair of entries that differ across the diagonal.
+fn asymmetry(matrix: &DMatrix<f64>) -> Option<(usize, usize)> {
+    let slack = SLACK * matrix.amax();
+    let n = matrix.nrows();
+    let mut pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
+    pairs.find(|&(i, j)| (matrix[(i, j)] - matrix[(j, i)]).abs() > slack)
+}
+
+fn p12(pqq: DMatrix<f64>, omega: &DMatrix<f64>, faults: &mut Faults) {
+    let Some(factor) = pqq.cholesky() else { return };
+    let p12 = factor.solve(omega);
+    if let Some((i, j)) = asymmetry(&p12) {
+        faults.push(
+            "control.Omega",
+            format!("gives a P12 = Pqq⁻¹Ω that is not symmetric: {} and {}", p12[(i, j)], p12[(j, i)]),
+            "choose Pqq and Omega that commute, such as Omega as a multiple of Pqq, or one of them as a number",
+        );
+        return;
+    }
+    let slack = SLACK * p12.amax();
+    let n = p12.nrows();
+    let negative = (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).find(|&at| p12[at] < -slack);
+    if let Some((i, j)) = negative {
+        faults.push(
+            "control.Omega",
+            format!("gives P12 = Pqq⁻¹Ω the negative entry {} at row {i}, column {j}", p12[(i, j)]),
+            "choose Pqq and Omega so that every entry of P12 is at least 0, such as diagonal ones",
+        );
+    }
+}

@@ -1,0 +1,100 @@
+//! Whether the numbers of a specification make sense together with its arm, and the way from file to checked input.
+
+mod control;
+mod measure;
+mod motion;
+mod shape;
+
+use std::path::Path;
+
+use crate::arm::{Arm, Built};
+use crate::error::{Error, Faults};
+use crate::load::{Loaded, load};
+use crate::spec::{ModelSpec, Spec};
+
+pub use shape::{matrix, vector};
+
+/// A specification that passed every check that needs no dynamics.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checked {
+    /// The specification and its files.
+    pub loaded: Loaded,
+    /// Its arm and the warnings about it.
+    pub built: Built,
+}
+
+/// Reads the specification at `path`, builds its arm and checks all values.
+///
+/// # Errors
+/// Those of [`load`]; else [`Error::Input`] with every fault of arm and values together.
+pub fn prepare(path: &Path) -> Result<Checked, Error> {
+    from_loaded(load(path)?)
+}
+
+/// The same from a specification that is read already.
+///
+/// # Errors
+/// [`Error::Input`] with every fault of arm and values together.
+pub fn from_loaded(loaded: Loaded) -> Result<Checked, Error> {
+    let mut faults = Faults::of(&loaded.path);
+    let built = Arm::from_spec(&loaded, &mut faults);
+    check(&loaded.spec, built.as_ref().map(|b| &b.arm), &mut faults);
+    match built {
+        Some(built) => faults.finish(Checked { loaded, built }),
+        None => Err(faults.into_error()),
+    }
+}
+
+/// Checks every field that is not the arm's own.
+///
+/// Without an arm (because it is at fault) the number of joints is taken from the DH table, and what needs to know
+/// more is passed over.
+pub fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) {
+    let joints = arm.map(Arm::dof).or_else(|| spec.arm.dh.as_ref().map(|table| table.links.len()));
+    name(&spec.name, faults);
+    match &spec.model {
+        ModelSpec::Shared { functions: 0 } => {
+            faults.push("model.shared.functions", "is 0", "write a whole number of at least 1");
+        }
+        ModelSpec::Shared { .. } | ModelSpec::Exact => {}
+    }
+    if let Some(motion) = &spec.motion {
+        motion::check(motion, joints, faults);
+    }
+    measure::check(spec, arm, joints, faults);
+    if let Some(control) = &spec.control {
+        control::check(control, joints, faults);
+    }
+    if let Some(duration) = spec.simulation.duration.filter(|v| *v <= 0.0) {
+        faults.push("simulation.duration", format!("is {duration}"), "write a number above 0, in s");
+    }
+    if spec.simulation.substeps == Some(0) {
+        faults.push("simulation.substeps", "is 0", "write a whole number of at least 1");
+    }
+}
+
+/// Words that cannot name a Rust module.
+const KEYWORDS: [&str; 51] = [
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
+    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop",
+    "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static",
+    "struct", "super", "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual",
+    "where", "while", "yield",
+];
+
+fn name(name: &str, faults: &mut Faults) {
+    let mut letters = name.chars();
+    let begins = letters.next().is_some_and(|c| c.is_ascii_lowercase());
+    if !begins || !letters.all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_') {
+        faults.push(
+            "name",
+            format!("is {name:?}"),
+            "write a lower-case letter, then lower-case letters, digits and underscores: it names a Rust module",
+        );
+    } else if KEYWORDS.contains(&name) {
+        faults.push("name", format!("is {name:?}, a word of the Rust language"), "choose another name");
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,65 @@
+//! Motions: as many numbers as joints, times that run forwards.
+
+use super::shape::{has, length};
+use crate::error::Faults;
+use crate::spec::MotionSpec;
+
+/// Checks the fields of `motion`; a CSV table is checked where it is read.
+pub(super) fn check(motion: &MotionSpec, joints: Option<usize>, faults: &mut Faults) {
+    match motion {
+        MotionSpec::Quintic { from, to, duration } => {
+            length("motion.quintic.from", from.len(), joints, faults);
+            length("motion.quintic.to", to.len(), joints, faults);
+            positive("motion.quintic.duration", *duration, faults);
+        }
+        MotionSpec::Waypoints { times, positions } => waypoints(times, positions, joints, faults),
+        MotionSpec::Sinusoids { offset, terms, duration } => {
+            length("motion.sinusoids.offset", offset.len(), joints, faults);
+            length("motion.sinusoids.terms", terms.len(), joints, faults);
+            positive("motion.sinusoids.duration", *duration, faults);
+        }
+        MotionSpec::Csv { file } if file.is_empty() => {
+            faults.push(
+                "motion.csv.file",
+                "is empty",
+                "write the path of a table, relative to the specification",
+            );
+        }
+        MotionSpec::Csv { .. } => {}
+    }
+}
+
+fn waypoints(times: &[f64], positions: &[Vec<f64>], joints: Option<usize>, faults: &mut Faults) {
+    let field = "motion.waypoints.times";
+    if times.len() < 2 {
+        faults.push(field, has(times.len()), "write at least 2 times");
+    }
+    if let Some(first) = times.first().filter(|t| **t != 0.0) {
+        faults.push(format!("{field}[0]"), format!("is {first}"), "start at 0");
+    }
+    for (i, pair) in times.windows(2).enumerate() {
+        if let [before, after] = pair
+            && after <= before
+        {
+            let problem = format!("is {after}, after {before}");
+            faults.push(format!("{field}[{}]", i + 1), problem, "let the times rise");
+        }
+    }
+    if positions.len() != times.len() {
+        let problem = has(positions.len());
+        faults.push(
+            "motion.waypoints.positions",
+            problem,
+            format!("write {}, one for each time", times.len()),
+        );
+    }
+    for (i, position) in positions.iter().enumerate() {
+        length(&format!("motion.waypoints.positions[{i}]"), position.len(), joints, faults);
+    }
+}
+
+fn positive(field: &str, value: f64, faults: &mut Faults) {
+    if value <= 0.0 {
+        faults.push(field, format!("is {value}"), "write a number above 0, in s");
+    }
+}

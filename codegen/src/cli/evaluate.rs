@@ -1,0 +1,145 @@
+//! `gramforge evaluate`: D, C, G, h and τ at given states.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use serde::{Deserialize, Serialize};
+
+use super::{json, show_warnings};
+use crate::arm::Arm;
+use crate::error::{Error, Faults};
+use crate::lagrangian::{Lagrangian, Values};
+use crate::pipeline::Generation;
+
+/// Evaluates the model at states from a file.
+#[derive(Debug, Args)]
+pub(super) struct Evaluate {
+    /// The specification file.
+    spec: PathBuf,
+    /// A JSON array of objects {q, qd, qdd}: rad, rad/s, rad/s² (m, m/s, m/s² for prismatic joints).
+    #[arg(long)]
+    states: PathBuf,
+    /// Which model.
+    #[arg(long, value_enum, default_value_t = Which::Exact)]
+    model: Which,
+    /// Add viscous and Coulomb friction to tau.
+    #[arg(long)]
+    friction: bool,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Which {
+    Exact,
+    Reduced,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct State {
+    q: Vec<f64>,
+    #[serde(default)]
+    qd: Vec<f64>,
+    #[serde(default)]
+    qdd: Vec<f64>,
+}
+
+#[derive(Debug, Serialize)]
+#[allow(non_snake_case, reason = "the report's letters are the keys")]
+struct Evaluation {
+    D: Vec<Vec<f64>>,
+    C: Vec<Vec<f64>>,
+    G: Vec<f64>,
+    H: Vec<Vec<Vec<f64>>>,
+    tau: Vec<f64>,
+}
+
+impl Evaluate {
+    pub(super) fn run(&self) -> Result<String, Error> {
+        let generation = Generation::from_file(&self.spec)?;
+        show_warnings(&generation.warnings);
+        let states = read(&self.states, generation.arm.dof())?;
+        let evaluations: Vec<Evaluation> =
+            states.iter().map(|state| self.evaluate(&generation, state)).collect();
+        if self.json { json(&evaluations) } else { Ok(text(&evaluations)) }
+    }
+
+    fn evaluate(&self, generation: &Generation, state: &State) -> Evaluation {
+        let Generation { arm, lagrangian, reduced, .. } = generation;
+        let values = match self.model {
+            Which::Exact => lagrangian.at(&state.q),
+            Which::Reduced => lagrangian.at_with(&reduced.combinations, &state.q),
+        };
+        evaluation(arm, lagrangian, values, state, self.friction)
+    }
+}
+
+fn evaluation(
+    arm: &Arm,
+    lagrangian: &Lagrangian,
+    values: Values,
+    state: &State,
+    friction: bool,
+) -> Evaluation {
+    let n = lagrangian.dof;
+    let coriolis = values.coriolis(&state.qd);
+    let mut tau = values.gravity.clone();
+    for (i, tau) in tau.iter_mut().enumerate() {
+        for j in 0..n {
+            *tau += values.mass_matrix[i][j] * state.qdd[j] + coriolis[i][j] * state.qd[j];
+        }
+    }
+    if friction {
+        for ((tau, joint), &qd) in tau.iter_mut().zip(&arm.joints).zip(&state.qd) {
+            let [forwards, backwards] = joint.coulomb_friction;
+            let coulomb = if qd > 0.0 {
+                forwards
+            } else if qd < 0.0 {
+                backwards
+            } else {
+                0.0
+            };
+            *tau += joint.viscous_friction * qd + coulomb;
+        }
+    }
+    Evaluation { D: values.mass_matrix, C: coriolis, G: values.gravity, H: values.christoffel, tau }
+}
+
+fn read(path: &Path, dof: usize) -> Result<Vec<State>, Error> {
+    let wanted = "give a JSON array of objects {\"q\": […], \"qd\": […], \"qdd\": […]}";
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| Error::input(path, "", format!("cannot be read ({error})"), wanted))?;
+    let mut states: Vec<State> = serde_json::from_str(&text)
+        .map_err(|error| Error::input(path, "", format!("is not a list of states ({error})"), wanted))?;
+    let mut faults = Faults::of(path);
+    for (index, state) in states.iter_mut().enumerate() {
+        for (name, list) in [("q", &mut state.q), ("qd", &mut state.qd), ("qdd", &mut state.qdd)] {
+            // Velocities and accelerations left out are zero.
+            if list.is_empty() && name != "q" {
+                *list = vec![0.0; dof];
+            }
+            if list.len() != dof {
+                let problem = format!("has {} entries", list.len());
+                faults.push(format!("[{index}].{name}"), problem, format!("write {dof}, one for each joint"));
+            }
+        }
+    }
+    faults.finish(states)
+}
+
+fn text(evaluations: &[Evaluation]) -> String {
+    let row = |row: &Vec<f64>| row.iter().map(|x| format!("{x:>14.6e}")).collect::<Vec<_>>().join(" ");
+    let mut out = String::new();
+    for (index, e) in evaluations.iter().enumerate() {
+        out.push_str(&format!("state {index}\n"));
+        for (name, matrix) in [("D", &e.D), ("C", &e.C)] {
+            for (i, entries) in (1..).zip(matrix) {
+                out.push_str(&format!("  {name}{i:<3} {}\n", row(entries)));
+            }
+        }
+        out.push_str(&format!("  G    {}\n  tau  {}\n", row(&e.G), row(&e.tau)));
+    }
+    out
+}

@@ -1,0 +1,162 @@
+//! `gramforge inspect`: what a specification amounts to.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Serialize;
+
+use super::{json, show_warnings};
+use crate::design::Envelope;
+use crate::emit::{domain_in_words, verdict};
+use crate::error::Error;
+use crate::graph::Operations;
+use crate::measure::Domain;
+use crate::pipeline::Generation;
+
+/// Shows the expansion, the chosen functions, bounds, gains and operation counts of a specification.
+#[derive(Debug, Args)]
+pub(super) struct Inspect {
+    /// The specification file.
+    spec: PathBuf,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Inspection<'a> {
+    name: &'a str,
+    joints: usize,
+    joint_names: Vec<&'a str>,
+    functions: usize,
+    coefficients: usize,
+    terms: usize,
+    selected: Vec<String>,
+    bounds: BoundsView<'a>,
+    domain: DomainView,
+    form: &'static str,
+    operations: Costs,
+    verdict: String,
+    control: Option<ControlView<'a>>,
+    warnings: &'a [String],
+}
+
+#[derive(Serialize)]
+#[allow(non_snake_case, reason = "the report's letters are the keys")]
+struct BoundsView<'a> {
+    kind: &'static str,
+    D: &'a [Vec<f64>],
+    H: &'a [Vec<Vec<f64>>],
+    G: &'a [f64],
+    /// ΔC of equation (30); absent without a controller.
+    C: Option<&'a [Vec<f64>]>,
+}
+
+#[derive(Serialize)]
+struct DomainView {
+    kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    position_error: Option<Vec<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    position: Option<Vec<[f64; 2]>>,
+}
+
+#[derive(Serialize)]
+struct Costs {
+    reduced: Operations,
+    exact: Operations,
+}
+
+#[derive(Serialize)]
+struct ControlView<'a> {
+    k_star: f64,
+    v_max: f64,
+    position_error: &'a [f64],
+    velocity_error: &'a [f64],
+    speed: &'a [f64],
+}
+
+impl Inspect {
+    pub(super) fn run(&self) -> Result<String, Error> {
+        let generation = Generation::from_file(&self.spec)?;
+        show_warnings(&generation.warnings);
+        let view = view(&generation);
+        if self.json { json(&view) } else { Ok(text(&view, &generation)) }
+    }
+}
+
+fn view(generation: &Generation) -> Inspection<'_> {
+    let Generation { arm, lagrangian, reduced, bounds, code, exact_code, design, .. } = generation;
+    let operations = Costs { reduced: code.operations(), exact: exact_code.operations() };
+    let control = design.as_ref().map(|design| {
+        let Envelope { v_max, position_error, velocity_error, speed } = &design.envelope;
+        ControlView { k_star: design.k_star, v_max: *v_max, position_error, velocity_error, speed }
+    });
+    Inspection {
+        name: &generation.loaded.spec.name,
+        joints: arm.dof(),
+        joint_names: arm.joints.iter().map(|joint| joint.name.as_str()).collect(),
+        functions: lagrangian.functions.len(),
+        coefficients: lagrangian.coefficients.len(),
+        terms: lagrangian.terms(),
+        selected: reduced.selected.iter().map(|&l| lagrangian.functions[l].to_string()).collect(),
+        bounds: BoundsView {
+            kind: "sampled",
+            D: &bounds.d,
+            H: &bounds.h,
+            G: &bounds.g,
+            C: design.as_ref().map(|design| design.delta_c.as_slice()),
+        },
+        domain: domain_view(&generation.domain),
+        form: generation.form.name(),
+        verdict: if reduced.selected.is_empty() {
+            "this is the exact model.".to_string()
+        } else {
+            verdict(&operations.reduced, &operations.exact)
+        },
+        operations,
+        control,
+        warnings: &generation.warnings,
+    }
+}
+
+fn domain_view(domain: &Domain) -> DomainView {
+    let (kind, position_error, position) = match domain {
+        Domain::Trajectory => ("trajectory", None, None),
+        Domain::Tube(errors) => ("tube", Some(errors.clone()), None),
+        Domain::Workspace(limits) => ("workspace", None, Some(limits.clone())),
+    };
+    DomainView { kind, position_error, position }
+}
+
+fn text(view: &Inspection, generation: &Generation) -> String {
+    let mut lines = vec![
+        format!("{}: {} joints ({})", view.name, view.joints, view.joint_names.join(", ")),
+        format!(
+            "exact model: {} functions, {} distinct coefficients, {} terms",
+            view.functions, view.coefficients, view.terms
+        ),
+    ];
+    for (number, psi) in (1..).zip(&view.selected) {
+        lines.push(format!("  psi_{number} = {psi}"));
+    }
+    let cost = |o: &Operations| format!("{} mul, {} add, {} sin-cos pairs", o.mul, o.add, o.trig_pairs);
+    lines.push(format!("emitted ({}): {}", view.form, cost(&view.operations.reduced)));
+    lines.push(format!("exact:   {}", cost(&view.operations.exact)));
+    lines.push(format!("verdict: {}", view.verdict));
+    if !view.selected.is_empty() {
+        let largest = |values: &mut dyn Iterator<Item = &f64>| values.fold(0.0_f64, |a, &b| a.max(b));
+        lines.push(format!(
+            "bounds ({}) over {}: dD <= {:.4}, dh <= {:.4}, dG <= {:.4}",
+            view.bounds.kind,
+            domain_in_words(&generation.domain),
+            largest(&mut view.bounds.D.iter().flatten()),
+            largest(&mut view.bounds.H.iter().flatten().flatten()),
+            largest(&mut view.bounds.G.iter()),
+        ));
+    }
+    if let Some(control) = &view.control {
+        lines.push(format!("control: k* = {:.4}, V_max(0) = {:.4} J", control.k_star, control.v_max));
+    }
+    lines.join("\n") + "\n"
+}

@@ -1,0 +1,65 @@
+//! The command line: one file a subcommand, each a thin shell over the library.
+
+mod evaluate;
+mod generate;
+mod inspect;
+
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use serde::Serialize;
+
+use crate::error::Error;
+
+/// Generates reduced robot dynamics and tracking controllers as flat, allocation-free no_std Rust.
+///
+/// Without a subcommand: a demonstration on a three-link arm.
+/// Exit codes: 0 done, 1 check failed, 2 bad input, 3 internal error.
+#[derive(Debug, Parser)]
+#[command(name = "gramforge", version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Inspect(inspect::Inspect),
+    Evaluate(evaluate::Evaluate),
+    Generate(generate::Generate),
+}
+
+/// Runs the command that the process arguments name.
+pub fn run() -> ExitCode {
+    let outcome = match Cli::parse().command {
+        None => Ok(String::new()),
+        Some(Command::Inspect(command)) => command.run(),
+        Some(Command::Evaluate(command)) => command.run(),
+        Some(Command::Generate(command)) => command.run(),
+    };
+    match outcome {
+        Ok(text) => {
+            // A reader that has seen enough closes the pipe; that is no error of ours.
+            let _ = std::io::stdout().lock().write_all(text.as_bytes());
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            let _ = writeln!(std::io::stderr().lock(), "{error}");
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+/// `value` as indented JSON with a final newline.
+fn json(value: &impl Serialize) -> Result<String, Error> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| Error::Internal(error.to_string()))?;
+    Ok(text + "\n")
+}
+
+/// Shows the warnings of a specification on standard error.
+fn show_warnings(warnings: &[String]) {
+    for warning in warnings {
+        let _ = writeln!(std::io::stderr().lock(), "warning: {warning}");
+    }
+}

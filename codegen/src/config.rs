@@ -1,0 +1,157 @@
+//! The builder for `build.rs`, and the engine of the command.
+
+use std::path::{Path, PathBuf};
+
+use crate::error::{Error, Faults};
+use crate::output::{is_current, write_if_changed};
+use crate::pipeline::Generation;
+
+/// Generates modules from specifications.
+///
+/// ```no_run
+/// // build.rs
+/// fn main() {
+///     gramforge::Config::new().spec("specs/arm.json").run_in_build_script();
+/// }
+/// ```
+///
+/// and in the crate, which depends on `gramforge-runtime`:
+///
+/// ```ignore
+/// mod arm {
+///     include!(concat!(env!("OUT_DIR"), "/arm.rs"));
+/// }
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Config {
+    specs: Vec<PathBuf>,
+    out_dir: Option<PathBuf>,
+}
+
+/// One generated module.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// The file: the output folder, the specification's name, `.rs`.
+    pub path: PathBuf,
+    /// Its text.
+    pub text: String,
+    /// Whether the file was written, that is: whether it was missing or said something else.
+    pub written: bool,
+    /// What the module was made from.
+    pub generation: Generation,
+}
+
+impl Config {
+    /// No specification yet; output to `OUT_DIR`.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a specification file.
+    #[must_use]
+    pub fn spec(mut self, path: impl Into<PathBuf>) -> Self {
+        self.specs.push(path.into());
+        self
+    }
+
+    /// Sets the folder that the modules go to.
+    #[must_use]
+    pub fn out_dir(mut self, path: impl Into<PathBuf>) -> Self {
+        self.out_dir = Some(path.into());
+        self
+    }
+
+    /// Generates every module and writes those that changed. No file is touched unless all can be generated.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with the faults of all specifications, or where a file cannot be written.
+    pub fn generate(&self) -> Result<Vec<Output>, Error> {
+        let mut outputs = self.build()?;
+        for output in &mut outputs {
+            output.written = write_if_changed(&output.path, &output.text)?;
+        }
+        Ok(outputs)
+    }
+
+    /// Compares every module with its file and writes nothing.
+    ///
+    /// # Errors
+    /// [`Error::Stale`] for the first file that differs or is missing; otherwise as [`Config::generate`].
+    pub fn check(&self) -> Result<Vec<Output>, Error> {
+        let outputs = self.build()?;
+        for (output, spec) in outputs.iter().zip(&self.specs) {
+            if !is_current(&output.path, &output.text) {
+                let folder = output.path.parent().unwrap_or(Path::new(".")).display().to_string();
+                let command = format!("gramforge generate {} --out {folder}", spec.display());
+                return Err(Error::Stale { path: output.path.clone(), command });
+            }
+        }
+        Ok(outputs)
+    }
+
+    /// [`Config::generate`] for a build script: tells cargo to run again when a specification or a file that
+    /// it names changes, shows warnings, and ends the build with the faults if there are any.
+    pub fn run_in_build_script(&self) {
+        for spec in &self.specs {
+            println!("cargo:rerun-if-changed={}", spec.display());
+            // A faulty specification still names files whose mending must rerun the script.
+            if let Ok(loaded) = crate::load::load(spec) {
+                for file in loaded.files {
+                    println!("cargo:rerun-if-changed={}", file.display());
+                }
+            }
+        }
+        match self.generate() {
+            Ok(outputs) => {
+                for warning in outputs.iter().flat_map(|output| &output.generation.warnings) {
+                    println!("cargo:warning={warning}");
+                }
+            }
+            Err(error) => {
+                for line in error.to_string().lines() {
+                    println!("cargo:error={line}");
+                }
+            }
+        }
+    }
+
+    fn build(&self) -> Result<Vec<Output>, Error> {
+        let out_dir = self.folder()?;
+        let mut faults = Vec::new();
+        let mut outputs: Vec<Output> = Vec::new();
+        for spec in &self.specs {
+            let built = Generation::from_file(spec).and_then(|generation| {
+                let path = out_dir.join(format!("{}.rs", generation.loaded.spec.name));
+                Ok(Output { path, text: generation.module()?, written: false, generation })
+            });
+            match built {
+                Ok(output) => match outputs.iter().find(|other| other.path == output.path) {
+                    Some(other) => faults.extend(same_name(spec, &output, other)),
+                    None => outputs.push(output),
+                },
+                Err(Error::Input(more)) => faults.extend(more),
+                Err(other) => return Err(other),
+            }
+        }
+        if faults.is_empty() { Ok(outputs) } else { Err(Error::Input(faults)) }
+    }
+
+    fn folder(&self) -> Result<PathBuf, Error> {
+        let unset = || {
+            let mend = "set it with `out_dir`, or run inside a build script, where cargo sets OUT_DIR";
+            Error::input(Path::new("gramforge::Config"), "out_dir", "is not set", mend)
+        };
+        self.out_dir.clone().or_else(|| std::env::var_os("OUT_DIR").map(PathBuf::from)).ok_or_else(unset)
+    }
+}
+
+fn same_name(spec: &Path, output: &Output, other: &Output) -> Vec<crate::error::Fault> {
+    let mut faults = Faults::of(spec);
+    let name = &output.generation.loaded.spec.name;
+    let first = other.generation.loaded.path.display();
+    faults.push("name", format!("is {name:?}, as in {first}"), "give every specification a name of its own");
+    match faults.into_error() {
+        Error::Input(list) => list,
+        _ => Vec::new(),
+    }
+}

@@ -1,0 +1,140 @@
+//! The law, its settings and the reference motion.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::literal::{count, float, matrix, vector};
+use super::{Module, spaced};
+use crate::design::Design;
+use crate::error::Error;
+use crate::motion::Motion;
+use crate::spec::{LawSpec, OnFaultSpec};
+
+pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, Error> {
+    let n = count(module.arm.dof());
+    let reference = module.motion.map(reference).transpose()?.map(|(kind, value)| {
+        quote! {
+            /// The desired motion.
+            pub const REFERENCE: #kind = #value;
+        }
+    });
+    let Some(design) = module.design else { return Ok(quote!(#reference)) };
+    let settings = settings(design)?;
+    let (law_type, law) = law(design)?;
+    Ok(quote! {
+        /// Period, torque limits and fault policy.
+        pub const SETTINGS: ::gramforge_runtime::Settings<f64, #n> = #settings;
+        /// The tracking law with its gains.
+        pub const LAW: ::gramforge_runtime::#law_type<f64, #n> = #law;
+        #reference
+
+        /// The controller: model, law and settings put together.
+        ///
+        /// # Errors
+        /// None as generated; names the parameter if a constant above was edited into an impossible one.
+        pub fn controller() -> ::core::result::Result<
+            ::gramforge_runtime::Controller<#model, ::gramforge_runtime::#law_type<f64, #n>, #n>,
+            ::gramforge_runtime::ConfigError,
+        > {
+            ::gramforge_runtime::Controller::new(#model, LAW, SETTINGS)
+        }
+    })
+}
+
+fn settings(design: &Design) -> Result<TokenStream, Error> {
+    let period = float(design.period)?;
+    let limit = |limit: &Option<f64>| match limit {
+        Some(limit) => float(*limit).map(|x| quote!(Some(#x))),
+        None => Ok(quote!(None)),
+    };
+    let limits = spaced(design.torque_limit.iter().map(limit).collect::<Result<Vec<_>, _>>()?);
+    let on_fault = match design.on_fault {
+        OnFaultSpec::Hold => quote!(Hold),
+        OnFaultSpec::Zero => quote!(Zero),
+        OnFaultSpec::Gravity => quote!(Gravity),
+    };
+    Ok(quote!(::gramforge_runtime::Settings {
+        period: #period,
+        torque_limit: #limits,
+        on_fault: ::gramforge_runtime::OnFault::#on_fault,
+    }))
+}
+
+fn law(design: &Design) -> Result<(TokenStream, TokenStream), Error> {
+    let p12 = matrix(&design.gains.p12)?;
+    let damping = matrix(&design.gains.damping)?;
+    let pqq = matrix(&design.gains.pqq)?;
+    let gains = quote!(::gramforge_runtime::Gains { p12: #p12, damping: #damping, pqq: #pqq });
+    let coulomb = matrix(&design.coulomb)?;
+    Ok(match design.law {
+        LawSpec::Exact => {
+            (quote!(ExactLaw), quote!(::gramforge_runtime::ExactLaw { gains: #gains, coulomb: #coulomb }))
+        }
+        LawSpec::Report => {
+            let delta_c = matrix(&design.delta_c)?;
+            let delta_c1 = matrix(&design.delta_c1())?;
+            let disturbance = vector(&design.disturbance)?;
+            let switching = match &design.boundary_layer {
+                None => quote!(::gramforge_runtime::Switching::Sign),
+                Some(phi) => {
+                    let phi = vector(phi)?;
+                    quote!(::gramforge_runtime::Switching::BoundaryLayer(#phi))
+                }
+            };
+            let law = quote!(::gramforge_runtime::ReportLaw {
+                gains: #gains,
+                delta_c: #delta_c,
+                delta_c1: #delta_c1,
+                disturbance: #disturbance,
+                switching: #switching,
+                coulomb: #coulomb,
+            });
+            (quote!(ReportLaw), law)
+        }
+    })
+}
+
+/// Type and value of the reference.
+fn reference(motion: &Motion) -> Result<(TokenStream, TokenStream), Error> {
+    let n = count(motion.dof());
+    let duration = float(motion.duration())?;
+    let path = quote!(::gramforge_runtime::reference);
+    Ok(match motion {
+        Motion::Quintic { from, to, .. } => {
+            let (from, to) = (vector(from)?, vector(to)?);
+            (
+                quote!(#path::QuinticReference<f64, #n>),
+                quote!(#path::QuinticReference { from: #from, to: #to, duration: #duration }),
+            )
+        }
+        Motion::Spline(spline) => {
+            let segment = |(start, piece): (&f64, &Vec<[f64; 4]>)| -> Result<TokenStream, Error> {
+                let (start, coefficients) = (float(*start)?, matrix(piece)?);
+                Ok(quote!(#path::SplineSegment { start: #start, coefficients: #coefficients }))
+            };
+            let segments =
+                spaced(spline.times.iter().zip(&spline.pieces).map(segment).collect::<Result<Vec<_>, _>>()?);
+            (
+                quote!(#path::SplineReference<'static, f64, #n>),
+                quote!(#path::SplineReference { segments: &#segments, duration: #duration }),
+            )
+        }
+        Motion::Sinusoids { offset, terms, .. } => {
+            let offset = vector(offset)?;
+            let term = |s: &gramforge_runtime::reference::Sinusoid<f64>| -> Result<TokenStream, Error> {
+                let (amplitude, frequency, phase) =
+                    (float(s.amplitude)?, float(s.frequency)?, float(s.phase)?);
+                Ok(quote!(#path::Sinusoid { amplitude: #amplitude, frequency: #frequency, phase: #phase }))
+            };
+            let joint = |terms: &Vec<_>| -> Result<TokenStream, Error> {
+                let terms = spaced(terms.iter().map(term).collect::<Result<Vec<_>, _>>()?);
+                Ok(quote!(&#terms))
+            };
+            let terms = spaced(terms.iter().map(joint).collect::<Result<Vec<_>, _>>()?);
+            (
+                quote!(#path::SinusoidReference<'static, f64, #n>),
+                quote!(#path::SinusoidReference { offset: #offset, terms: #terms, duration: #duration }),
+            )
+        }
+    })
+}

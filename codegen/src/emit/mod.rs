@@ -1,0 +1,115 @@
+//! From graph and constants to formatted Rust; the only place that knows `quote`.
+
+mod constants;
+mod controller;
+mod docs;
+mod literal;
+mod statements;
+
+pub(crate) use docs::{domain as domain_in_words, verdict};
+
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::quote;
+
+use crate::arm::Arm;
+use crate::body::Form;
+use crate::bounds::Bounds;
+use crate::design::Design;
+use crate::error::Error;
+use crate::graph::Graph;
+use crate::lagrangian::Lagrangian;
+use crate::measure::Domain;
+use crate::motion::Motion;
+use crate::reduction::Reduced;
+
+/// What a module is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct Module<'a> {
+    /// Name of the specification, `[a-z][a-z0-9_]*`.
+    pub name: &'a str,
+    /// SHA-256 of the specification and the files it names, hexadecimal.
+    pub hash: &'a str,
+    /// The arm.
+    pub arm: &'a Arm,
+    /// The exact model.
+    pub lagrangian: &'a Lagrangian,
+    /// The model that is emitted.
+    pub reduced: &'a Reduced,
+    /// What it leaves out.
+    pub bounds: &'a Bounds,
+    /// Where the bounds were looked for.
+    pub domain: &'a Domain,
+    /// How the torque is computed.
+    pub form: Form,
+    /// The torque.
+    pub code: &'a Graph,
+    /// The cheapest exact torque, for comparison.
+    pub exact_code: &'a Graph,
+    /// The desired motion.
+    pub motion: Option<&'a Motion>,
+    /// The controller.
+    pub design: Option<&'a Design>,
+}
+
+/// The text of the module: a header of comments, constants, one model type, one trait impl.
+///
+/// It starts with neither `//!` nor `#![…]`, so that `include!` takes it.
+///
+/// # Errors
+/// [`Error::Internal`] where a number that must be written is not finite, or the text does not parse.
+pub fn emit(module: &Module) -> Result<String, Error> {
+    let n = literal::count(module.arm.dof());
+    let model = Ident::new(&type_name(module.name), Span::call_site());
+    let docs = docs::model(module);
+    let constants = constants::constants(module)?;
+    let controller = controller::controller(module, &model)?;
+    let parameters = statements::parameters(module.code);
+    let body = statements::body(module.code)?;
+    let tokens = quote! {
+        #(#[doc = #docs])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub struct #model;
+
+        #constants
+
+        impl ::gramforge_runtime::Model<#n> for #model {
+            type Scalar = f64;
+
+            fn passivity_torque(&self, #parameters) -> [f64; #n] {
+                #body
+            }
+
+            fn viscous_friction(&self) -> [f64; #n] {
+                VISCOUS_FRICTION
+            }
+
+            fn bounds(&self) -> &::gramforge_runtime::Bounds<f64, #n> {
+                &BOUNDS
+            }
+        }
+
+        #controller
+    };
+    let file = syn::parse2(tokens).map_err(|error| Error::Internal(format!("generated code: {error}")))?;
+    Ok(format!("{}{}", docs::header(module), prettyplease::unparse(&file)))
+}
+
+/// The model's type name: `arm3_xi2` becomes `Arm3Xi2`.
+pub fn type_name(name: &str) -> String {
+    name.split('_')
+        .map(|part| {
+            let mut letters = part.chars();
+            letters
+                .next()
+                .map(|first| first.to_ascii_uppercase())
+                .into_iter()
+                .chain(letters)
+                .collect::<String>()
+        })
+        .collect()
+}
+
+fn spaced(items: impl IntoIterator<Item = TokenStream>) -> TokenStream {
+    let items = items.into_iter();
+    quote!([#(#items),*])
+}

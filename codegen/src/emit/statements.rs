@@ -1,0 +1,163 @@
+//! The graph as `let` statements.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{format_ident, quote};
+
+use super::{literal, spaced};
+use crate::error::Error;
+use crate::graph::{Graph, Node, NodeId, Variable};
+
+/// Expressions with more operations than this get a line of their own: beyond it nobody reads them.
+const LONG: usize = 10;
+
+/// How tightly the outermost operator of an expression binds.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Binding {
+    Sum,
+    Product,
+    Unary,
+    Atom,
+}
+
+struct Written {
+    tokens: TokenStream,
+    binding: Binding,
+    operations: usize,
+}
+
+impl Written {
+    fn atom(tokens: TokenStream) -> Self {
+        Self { tokens, binding: Binding::Atom, operations: 0 }
+    }
+
+    /// In parentheses where it binds less tightly than its surroundings need.
+    fn within(&self, least: Binding) -> TokenStream {
+        let tokens = &self.tokens;
+        if self.binding < least { quote!((#tokens)) } else { tokens.clone() }
+    }
+}
+
+/// The parameters `q, qd, v_r, a_r`, with an underscore where the graph does not use one.
+pub(super) fn parameters(graph: &Graph) -> TokenStream {
+    let n = literal::count(graph.outputs.len());
+    let used = |test: fn(&Node) -> bool| graph.nodes.iter().any(test);
+    let q = used(|node| matches!(node, Node::Input(Variable::Q(_)) | Node::Sin(_) | Node::Cos(_)));
+    let qd = used(|node| matches!(node, Node::Input(Variable::Qd(_))));
+    let v_r = used(|node| matches!(node, Node::Input(Variable::Vr(_))));
+    let a_r = used(|node| matches!(node, Node::Input(Variable::Ar(_))));
+    let names = [(q, "q"), (qd, "qd"), (v_r, "v_r"), (a_r, "a_r")].map(|(used, name)| {
+        if used { Ident::new(name, Span::call_site()) } else { format_ident!("_{name}") }
+    });
+    quote!(#(#names: &[f64; #n]),*)
+}
+
+/// Statements and the array of results.
+///
+/// Operators stand exactly as the graph has them: parentheses keep every rounding in its place.
+pub(super) fn body(graph: &Graph) -> Result<TokenStream, Error> {
+    let uses = graph.uses();
+    let mut names = Names::default();
+    let mut statements = trigonometry(graph, &mut names);
+    let mut written: Vec<Written> = Vec::with_capacity(graph.nodes.len());
+    for (id, &node) in graph.nodes.iter().enumerate() {
+        let expression = write(node, &written)?;
+        let leaf = node.operands().next().is_none();
+        let name = graph.names.get(id).and_then(Option::as_ref);
+        let own_line = name.is_some_and(|name| name.own_line) || uses[id] > 1 || expression.operations > LONG;
+        if leaf || !own_line {
+            written.push(expression);
+            continue;
+        }
+        let ident = names.fresh(name.map(|name| name.text.as_str()));
+        let tokens = expression.tokens;
+        statements.push(quote!(let #ident = #tokens;));
+        written.push(Written::atom(quote!(#ident)));
+    }
+    let outputs = spaced(graph.outputs.iter().map(|&output| written[output].tokens.clone()));
+    Ok(quote!(#(#statements)* #outputs))
+}
+
+/// One call for each joint whose sine or cosine occurs.
+fn trigonometry(graph: &Graph, names: &mut Names) -> Vec<TokenStream> {
+    let mut joints: BTreeMap<usize, (bool, bool)> = BTreeMap::new();
+    for node in &graph.nodes {
+        match *node {
+            Node::Sin(j) => joints.entry(j).or_default().0 = true,
+            Node::Cos(j) => joints.entry(j).or_default().1 = true,
+            _ => {}
+        }
+    }
+    joints
+        .into_iter()
+        .map(|(j, (sin, cos))| {
+            let mut part = |used: bool, function: &str| {
+                let ident = format_ident!("{function}_q{}", j + 1);
+                names.taken.insert(ident.to_string());
+                if used { quote!(#ident) } else { quote!(_) }
+            };
+            let (sin, cos, j) = (part(sin, "sin"), part(cos, "cos"), literal::count(j));
+            quote!(let (#sin, #cos) = ::gramforge_runtime::Real::sin_cos(q[#j]);)
+        })
+        .collect()
+}
+
+fn write(node: Node, written: &[Written]) -> Result<Written, Error> {
+    let input = |slice: &str, j: usize| {
+        let (slice, j) = (Ident::new(slice, Span::call_site()), literal::count(j));
+        Written::atom(quote!(#slice[#j]))
+    };
+    let joined = |a: NodeId, b: NodeId, binding: Binding, right: Binding, operator: TokenStream| {
+        let (left, right) = (written[a].within(binding), written[b].within(right));
+        let operations = written[a].operations + written[b].operations + 1;
+        Written { tokens: quote!(#left #operator #right), binding, operations }
+    };
+    Ok(match node {
+        Node::Input(Variable::Q(j)) => input("q", j),
+        Node::Input(Variable::Qd(j)) => input("qd", j),
+        Node::Input(Variable::Vr(j)) => input("v_r", j),
+        Node::Input(Variable::Ar(j)) => input("a_r", j),
+        Node::Sin(j) => named_atom(format_ident!("sin_q{}", j + 1)),
+        Node::Cos(j) => named_atom(format_ident!("cos_q{}", j + 1)),
+        Node::Constant(bits) => {
+            let x = f64::from_bits(bits);
+            let binding = if x < 0.0 { Binding::Unary } else { Binding::Atom };
+            Written { tokens: literal::float(x)?, binding, operations: 0 }
+        }
+        Node::Add(a, b) => joined(a, b, Binding::Sum, Binding::Product, quote!(+)),
+        Node::Sub(a, b) => joined(a, b, Binding::Sum, Binding::Product, quote!(-)),
+        Node::Mul(a, b) => joined(a, b, Binding::Product, Binding::Unary, quote!(*)),
+        Node::Neg(a) => {
+            let operand = written[a].within(Binding::Atom);
+            Written {
+                tokens: quote!(-#operand),
+                binding: Binding::Unary,
+                operations: written[a].operations + 1,
+            }
+        }
+    })
+}
+
+fn named_atom(ident: Ident) -> Written {
+    Written::atom(quote!(#ident))
+}
+
+/// Identifiers in use.
+#[derive(Default)]
+struct Names {
+    taken: BTreeSet<String>,
+    temporaries: usize,
+}
+
+impl Names {
+    /// The wished name if it is free, a numbered one otherwise.
+    fn fresh(&mut self, wished: Option<&str>) -> Ident {
+        let mut text = wished.unwrap_or_default().to_string();
+        while text.is_empty() || !self.taken.insert(text.clone()) {
+            self.temporaries += 1;
+            text = format!("t{}", self.temporaries);
+        }
+        Ident::new(&text, Span::call_site())
+    }
+}

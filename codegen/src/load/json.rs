@@ -1,0 +1,129 @@
+//! JSON text to a value, with the faults that a plain reader lets pass: repeated keys are refused.
+
+use std::fmt;
+
+use serde::de::{DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde_json::{Map, Number, Value};
+
+use super::wording::{entry, member};
+use crate::error::Faults;
+
+/// The value that `text` stands for; `None` after a syntax fault. Repeated keys are faults too, the last one stands.
+pub(super) fn read(text: &str, faults: &mut Faults) -> Option<Value> {
+    let text = text.trim_start_matches('\u{feff}');
+    let mut repeated = Vec::new();
+    let mut reader = serde_json::Deserializer::from_str(text);
+    let node = Node { path: String::new(), repeated: &mut repeated };
+    let result = node.deserialize(&mut reader).and_then(|value| reader.end().map(|()| value));
+    for field in repeated {
+        faults.push(field, "stands twice in the same object", "keep one of the two");
+    }
+    match result {
+        Ok(value) => Some(value),
+        Err(error) => {
+            let (problem, mend) = syntax(&error);
+            faults.push("", problem, mend);
+            None
+        }
+    }
+}
+
+/// Turns `5.0` into `5`, which fields for numbers take as well and fields for whole numbers take alone.
+pub(super) fn narrow(value: &mut Value) {
+    match value {
+        Value::Array(list) => list.iter_mut().for_each(narrow),
+        Value::Object(map) => map.values_mut().for_each(narrow),
+        Value::Number(number) if number.is_f64() => {
+            // Above 2^53 a float need not be the whole number that was written.
+            let whole = |x: &f64| x.is_sign_positive() && x.fract() == 0.0 && *x < 9_007_199_254_740_992.0;
+            if let Some(x) = number.as_f64().filter(whole) {
+                *value = Value::from(x as u64);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Problem and mend of a syntax error.
+fn syntax(error: &serde_json::Error) -> (String, &'static str) {
+    let place = format!(" at line {} column {}", error.line(), error.column());
+    let whole = error.to_string();
+    let what = whole.strip_suffix(&place).unwrap_or(&whole);
+    let mend = if what == "number out of range" {
+        "write a finite number, below 1.8e308 in magnitude"
+    } else if error.is_eof() {
+        "complete the file: a quote, bracket or brace is not closed"
+    } else {
+        "mend the JSON there: double quotes around names, commas between entries, no comments"
+    };
+    (format!("line {}, column {}: {what}", error.line(), error.column()), mend)
+}
+
+struct Node<'a> {
+    path: String,
+    repeated: &'a mut Vec<String>,
+}
+
+impl<'de> DeserializeSeed<'de> for Node<'_> {
+    type Value = Value;
+
+    fn deserialize<D: Deserializer<'de>>(self, reader: D) -> Result<Value, D::Error> {
+        reader.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Node<'_> {
+    type Value = Value;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a JSON value")
+    }
+
+    fn visit_bool<E>(self, value: bool) -> Result<Value, E> {
+        Ok(Value::Bool(value))
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Value, E> {
+        Ok(Value::from(value))
+    }
+
+    fn visit_u64<E>(self, value: u64) -> Result<Value, E> {
+        Ok(Value::from(value))
+    }
+
+    fn visit_f64<E: serde::de::Error>(self, value: f64) -> Result<Value, E> {
+        Number::from_f64(value).map(Value::Number).ok_or_else(|| E::custom("number out of range"))
+    }
+
+    fn visit_str<E>(self, value: &str) -> Result<Value, E> {
+        Ok(Value::from(value))
+    }
+
+    fn visit_unit<E>(self) -> Result<Value, E> {
+        Ok(Value::Null)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Value, A::Error> {
+        let mut out = Vec::new();
+        loop {
+            let seed = Node { path: entry(&self.path, out.len()), repeated: &mut *self.repeated };
+            match list.next_element_seed(seed)? {
+                Some(value) => out.push(value),
+                None => return Ok(Value::Array(out)),
+            }
+        }
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut object: A) -> Result<Value, A::Error> {
+        let mut out = Map::new();
+        while let Some(key) = object.next_key::<String>()? {
+            let path = member(&self.path, &key);
+            if out.contains_key(&key) {
+                self.repeated.push(path.clone());
+            }
+            let value = object.next_value_seed(Node { path, repeated: &mut *self.repeated })?;
+            out.insert(key, value);
+        }
+        Ok(Value::Object(out))
+    }
+}

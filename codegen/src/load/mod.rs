@@ -1,0 +1,88 @@
+//! From a file to a [`Spec`] of the right shape: JSON syntax, then structure against the schema.
+//!
+//! What the values mean is judged later, by [`crate::arm`] and [`crate::check`].
+
+mod hash;
+mod json;
+mod structure;
+mod wording;
+
+use std::path::{Path, PathBuf};
+
+use crate::error::{Error, Faults};
+use crate::spec::{MotionSpec, Spec};
+
+pub use hash::spec_hash;
+pub use structure::schema;
+
+/// A specification of the right shape and the files that it rests on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loaded {
+    /// The specification.
+    pub spec: Spec,
+    /// The file that it was read from; relative paths in it start at this file's folder.
+    pub path: PathBuf,
+    /// The specification and every file that it names, whether or not they can be read; a build
+    /// script reruns when one of them changes.
+    pub files: Vec<PathBuf>,
+}
+
+impl Loaded {
+    /// `file`, a path relative to the specification, as a path from the working directory.
+    pub fn resolve(&self, file: &str) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(file)
+    }
+}
+
+/// Reads the specification file at `path`.
+///
+/// # Errors
+/// [`Error::Input`] where the file cannot be read, and those of [`parse`].
+pub fn load(path: &Path) -> Result<Loaded, Error> {
+    let text = std::fs::read_to_string(path).map_err(|error| {
+        Error::input(
+            path,
+            "",
+            format!("cannot be read ({error})"),
+            "give the path of a specification file, UTF-8 encoded JSON",
+        )
+    })?;
+    parse(&text, path)
+}
+
+/// Reads a specification from `text`; `path` is the file that messages name and that relative paths start from.
+///
+/// # Errors
+/// [`Error::Input`] with line and column where the text is not JSON, else with every field that is missing,
+/// unknown, repeated or of the wrong type.
+pub fn parse(text: &str, path: &Path) -> Result<Loaded, Error> {
+    let mut faults = Faults::of(path);
+    let Some(mut value) = json::read(text, &mut faults) else { return Err(faults.into_error()) };
+    structure::check(&value, &mut faults)?;
+    if !faults.is_empty() {
+        return Err(faults.into_error());
+    }
+    json::narrow(&mut value);
+    let spec: Spec = serde_json::from_value(value).map_err(|error| {
+        Error::input(path, "", format!("does not fit the schema ({error})"), "compare it with the schema")
+    })?;
+    let mut loaded = Loaded { spec, path: path.to_path_buf(), files: vec![path.to_path_buf()] };
+    let files: Vec<PathBuf> = named(&loaded.spec).iter().map(|(_, file)| loaded.resolve(file)).collect();
+    loaded.files.extend(files);
+    Ok(loaded)
+}
+
+/// The files that `spec` names, each with the field that names it.
+fn named(spec: &Spec) -> Vec<(&'static str, &str)> {
+    let mut out = Vec::new();
+    if let Some(file) = &spec.arm.urdf {
+        out.push(("arm.urdf", file.as_str()));
+    }
+    if let Some(MotionSpec::Csv { file }) = &spec.motion {
+        out.push(("motion.csv.file", file.as_str()));
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,175 @@
+//! All stages in order: from a checked specification to a model, its bounds, its controller and its code.
+
+use std::path::Path;
+
+use crate::arm::{Arm, indefinite};
+use crate::body::{self, Form};
+use crate::bounds::{Bounds, sampled};
+use crate::check::{Checked, from_loaded, vector};
+use crate::design::{Design, Gains, checked, design, envelope};
+use crate::dynamics::mass_matrix;
+use crate::emit::{Module, emit};
+use crate::error::{Error, Faults};
+use crate::graph::Graph;
+use crate::lagrangian::{Lagrangian, expand};
+use crate::load::{Loaded, load, spec_hash};
+use crate::measure::{Domain, Measure, joint_box};
+use crate::motion::{Motion, check_limits};
+use crate::reduction::{self, Reduced};
+use crate::spec::{MeasureSpec, ModelSpec, Spec};
+
+/// Half-width of the tube where the specification names no measure, rad or m.
+const DEFAULT_TUBE: f64 = 0.05;
+
+/// Everything that follows from one specification.
+///
+/// Holds: the arm's D(q) was positive definite wherever it was looked at; the motion keeps to the joints'
+/// limits; ξ ≤ p.
+#[derive(Clone, Debug)]
+pub struct Generation {
+    /// The specification.
+    pub loaded: Loaded,
+    /// The arm.
+    pub arm: Arm,
+    /// What is odd about the specification without being wrong.
+    pub warnings: Vec<String>,
+    /// The desired motion.
+    pub motion: Option<Motion>,
+    /// Where the model must hold.
+    pub domain: Domain,
+    /// The exact model.
+    pub lagrangian: Lagrangian,
+    /// The emitted model.
+    pub reduced: Reduced,
+    /// What it leaves out over the domain.
+    pub bounds: Bounds,
+    /// The controller.
+    pub design: Option<Design>,
+    /// Form of the emitted body.
+    pub form: Form,
+    /// The emitted passivity torque.
+    pub code: Graph,
+    /// The cheapest exact passivity torque.
+    pub exact_code: Graph,
+}
+
+impl Generation {
+    /// Reads the specification at `path` and runs every stage.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with all faults of the specification and the files that it names.
+    pub fn from_file(path: &Path) -> Result<Self, Error> {
+        Self::new(load(path)?)
+    }
+
+    /// Runs every stage.
+    ///
+    /// # Errors
+    /// As [`Generation::from_file`].
+    pub fn new(loaded: Loaded) -> Result<Self, Error> {
+        let Checked { loaded, built } = from_loaded(loaded)?;
+        let arm = built.arm;
+        let spec = &loaded.spec;
+        let mut faults = Faults::of(&loaded.path);
+        let motion =
+            spec.motion.as_ref().and_then(|motion| Motion::from_spec(motion, arm.dof(), &mut faults));
+        if let Some(motion) = &motion {
+            check_limits(motion, &arm, &mut faults);
+        }
+        if let Some(state) = indefinite(&arm, |q| mass_matrix(&arm, q)) {
+            state.report(&mut faults);
+        }
+        let lagrangian = expand(&arm);
+        check_count(spec, &lagrangian, &mut faults);
+        faults.finish(())?;
+
+        let domain = domain(spec, &arm)?;
+        let measure = Measure::new(&domain, motion.as_ref(), &arm);
+        let reduced = match spec.model {
+            ModelSpec::Exact => reduction::exact(&lagrangian),
+            ModelSpec::Shared { functions } => reduction::shared(&lagrangian, &measure, functions),
+        };
+        let bounds = Bounds::new(&lagrangian, &sampled(&lagrangian, &reduced, &domain, motion.as_ref()));
+        let (exact_form, exact_code) = body::exact(&arm, &lagrangian);
+        let (form, code) = match spec.model {
+            ModelSpec::Exact => (exact_form, exact_code.clone()),
+            ModelSpec::Shared { .. } => (Form::Expanded, body::expanded(&arm, &lagrangian, &reduced)),
+        };
+        let design = spec
+            .control
+            .as_ref()
+            .map(|control| {
+                let gains = Gains::new(control, arm.dof())?;
+                let speed = desired_speed(motion.as_ref(), &arm);
+                let envelope = envelope(&arm, &speed, &measure.points, &gains, &control.initial_error)?;
+                design(control, &arm, &bounds, envelope)
+            })
+            .transpose()?;
+        Ok(Self {
+            arm,
+            warnings: built.warnings,
+            motion,
+            domain,
+            lagrangian,
+            reduced,
+            bounds,
+            design,
+            form,
+            code,
+            exact_code,
+            loaded,
+        })
+    }
+
+    /// The text of the generated module.
+    ///
+    /// # Errors
+    /// [`Error::Input`] where a named file has become unreadable, [`Error::Internal`] for defects.
+    pub fn module(&self) -> Result<String, Error> {
+        emit(&Module {
+            name: &self.loaded.spec.name,
+            hash: &spec_hash(&self.loaded)?,
+            arm: &self.arm,
+            lagrangian: &self.lagrangian,
+            reduced: &self.reduced,
+            bounds: &self.bounds,
+            domain: &self.domain,
+            form: self.form,
+            code: &self.code,
+            exact_code: &self.exact_code,
+            motion: self.motion.as_ref(),
+            design: self.design.as_ref(),
+        })
+    }
+}
+
+fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Faults) {
+    let p = lagrangian.functions.len();
+    match spec.model {
+        ModelSpec::Shared { functions } if functions > p => faults.push(
+            "model.shared.functions",
+            format!("is {functions}, but the exact model has {p} functions"),
+            format!("write a number from 1 to {p}, or `\"exact\"`"),
+        ),
+        ModelSpec::Shared { .. } | ModelSpec::Exact => {}
+    }
+}
+
+fn domain(spec: &Spec, arm: &Arm) -> Result<Domain, Error> {
+    Ok(match (&spec.measure, &spec.motion) {
+        (Some(MeasureSpec::Workspace), _) | (None, None) => Domain::Workspace(joint_box(arm)),
+        (Some(MeasureSpec::Trajectory), _) => Domain::Trajectory,
+        (Some(MeasureSpec::Tube { position_error }), _) => {
+            Domain::Tube(checked("measure.tube.position_error", vector(position_error, arm.dof()))?)
+        }
+        (None, Some(_)) => Domain::Tube(vec![DEFAULT_TUBE; arm.dof()]),
+    })
+}
+
+/// Largest desired speed by joint: of the motion, else the joint's limit, else 0.
+fn desired_speed(motion: Option<&Motion>, arm: &Arm) -> Vec<f64> {
+    match motion {
+        Some(motion) => motion.largest_speed(),
+        None => arm.joints.iter().map(|joint| joint.limits.velocity.unwrap_or(0.0)).collect(),
+    }
+}
