@@ -17,6 +17,8 @@ pub mod motion;
 pub mod output;
 pub mod pipeline;
 pub mod reduction;
+pub mod report;
+pub mod simulate;
 pub mod spec;
 
 pub use config::{Config, Output};

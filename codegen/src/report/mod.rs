@@ -1,0 +1,39 @@
+//! What a person looks at: tables for the terminal and plots, as text; nothing here writes a file.
+
+mod claims;
+mod grid;
+mod plot;
+mod series;
+mod table;
+
+pub use claims::{Claim, claims};
+pub use plot::plot;
+pub use table::{bounds_table, claims_table, metrics_table, operations_table};
+
+use crate::arm::JointKind;
+use crate::spec::LawSpec;
+
+/// Unit of a joint's position.
+fn position_unit(kind: JointKind) -> &'static str {
+    match kind {
+        JointKind::Revolute => "rad",
+        JointKind::Prismatic => "m",
+    }
+}
+
+/// Unit of a joint's torque or force.
+fn torque_unit(kind: JointKind) -> &'static str {
+    match kind {
+        JointKind::Revolute => "N·m",
+        JointKind::Prismatic => "N",
+    }
+}
+
+/// A law in words.
+fn law_name(law: LawSpec, boundary_layer: bool) -> &'static str {
+    match (law, boundary_layer) {
+        (LawSpec::Exact, _) => "law (16)",
+        (LawSpec::Report, false) => "law (34), sign function",
+        (LawSpec::Report, true) => "law (34), boundary layer",
+    }
+}

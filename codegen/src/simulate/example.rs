@@ -1,0 +1,218 @@
+//! Arms and scenarios for the tests: the three-link arm of the report's section 4, and chains of n joints.
+
+use std::path::Path;
+
+use super::{Comparison, Scenario, simulate};
+use crate::arm::{Arm, Body, Joint, JointKind, Limits, Transform};
+use crate::bounds::{Bounds, sampled};
+use crate::design::{Design, Gains, design, envelope};
+use crate::dynamics::{Position, passivity_torque};
+use crate::error::Error;
+use crate::graph::{Builder, Expr, Graph, Variable};
+use crate::lagrangian::{Entry, Function, Lagrangian, expand};
+use crate::measure::{Domain, Measure};
+use crate::motion::Motion;
+use crate::reduction::{Reduced, shared};
+use crate::spec::{
+    ControlSpec, InitialErrorSpec, LawSpec, MatrixSpec, OnFaultSpec, SimulationSpec, VectorSpec,
+};
+
+/// A link: α (quarter turns), a, d, mass, diagonal of the pseudo-inertia, first moment, in its standard frame.
+type Link = (f64, f64, f64, f64, [f64; 3], [f64; 3]);
+
+/// Owns what a [`Scenario`] borrows.
+pub(crate) struct Example {
+    pub(crate) arm: Arm,
+    pub(crate) motion: Motion,
+    pub(crate) design: Design,
+    pub(crate) code: Graph,
+    pub(crate) bounds: Bounds,
+    pub(crate) initial: InitialErrorSpec,
+    pub(crate) simulation: SimulationSpec,
+}
+
+impl Example {
+    /// The arm along a quintic, reduced to `functions` over a tube of 0.05 rad (`None`: exact), initial error 0.2 rad,
+    /// W = 40, Pqq = 0.25, Ω = 1.
+    pub(crate) fn new(
+        arm: Arm,
+        from: &[f64],
+        to: &[f64],
+        functions: Option<usize>,
+        boundary_layer: Option<f64>,
+    ) -> Self {
+        let n = arm.dof();
+        let motion = Motion::Quintic { from: from.to_vec(), to: to.to_vec(), duration: 5.0 };
+        let tube = Domain::Tube(vec![0.05; n]);
+        let measure = Measure::new(&tube, Some(&motion), &arm);
+        let (code, bounds) = match functions {
+            Some(functions) => {
+                let lagrangian = expand(&arm);
+                let reduced = shared(&lagrangian, &measure, functions);
+                let deltas = sampled(&lagrangian, &reduced, &tube, Some(&motion));
+                (expanded(&lagrangian, &reduced), Bounds::new(&lagrangian, &deltas))
+            }
+            None => {
+                let bounds =
+                    Bounds { d: vec![vec![0.0; n]; n], h: vec![vec![vec![0.0; n]; n]; n], g: vec![0.0; n] };
+                (recursive(&arm), bounds)
+            }
+        };
+        let control = ControlSpec {
+            law: if functions.is_some() { LawSpec::Report } else { LawSpec::Exact },
+            period: 0.01,
+            w: MatrixSpec::Scalar(40.0),
+            pqq: MatrixSpec::Scalar(0.25),
+            omega: MatrixSpec::Scalar(1.0),
+            boundary_layer: boundary_layer.map(VectorSpec::Scalar),
+            initial_error: InitialErrorSpec {
+                position: VectorSpec::Scalar(0.2),
+                velocity: VectorSpec::Scalar(0.0),
+            },
+            compensate_coulomb: false,
+            on_fault: OnFaultSpec::Hold,
+        };
+        let gains = Gains::new(&control, n).unwrap();
+        let speed = motion.largest_speed();
+        let envelope = envelope(&arm, &speed, &measure.points, &gains, &control.initial_error).unwrap();
+        let design = design(&control, &arm, &bounds, envelope).unwrap();
+        let initial = control.initial_error;
+        Self { arm, motion, design, code, bounds, initial, simulation: SimulationSpec::default() }
+    }
+
+    /// The report's example with its initial error, reduced to `functions`.
+    pub(crate) fn three_link(functions: Option<usize>, boundary_layer: Option<f64>) -> Self {
+        Self::new(three_link(), &[0.0, 0.3, -1.2], &[1.5, 1.2, -2.2], functions, boundary_layer)
+    }
+
+    /// 0.2 s of a chain of `n` joints at rest, exact.
+    pub(crate) fn chain(n: usize) -> Self {
+        let mut out = Self::new(chain(n), &vec![0.3; n], &vec![0.3; n], None, None);
+        out.simulation.duration = Some(0.2);
+        out
+    }
+
+    pub(crate) fn simulate(&self) -> Result<Comparison, Error> {
+        simulate(&Scenario {
+            file: Path::new("example.json"),
+            arm: &self.arm,
+            motion: &self.motion,
+            design: &self.design,
+            code: &self.code,
+            bounds: &self.bounds,
+            initial: &self.initial,
+            simulation: &self.simulation,
+        })
+    }
+}
+
+/// The arm of the report's Table 1.
+pub(crate) fn three_link() -> Arm {
+    arm(&[
+        (1.0, 0.0, 0.5, 5.5, [0.000391, 0.208, 0.000391], [0.0, -0.625, 0.0]),
+        (0.0, 0.5, 0.0, 4.0, [0.125, 0.000115, 0.000115], [-0.375, 0.0, 0.0]),
+        (0.0, 0.6, 0.0, 3.5, [0.120, 0.0000563, 0.0000563], [-0.3, 0.0, 0.0]),
+    ])
+}
+
+/// Links of 0.3 m and 5 kg, each turned by a quarter against the one before, on drives with heavy rotors.
+fn chain(n: usize) -> Arm {
+    let mut arm = arm(&vec![(1.0, 0.3, 0.0, 5.0, [0.15, 0.01, 0.01], [-0.75, 0.0, 0.0]); n]);
+    arm.joints.iter_mut().for_each(|joint| joint.armature = 1.0);
+    arm
+}
+
+fn arm(links: &[Link]) -> Arm {
+    let mut pose = Transform::IDENTITY;
+    let mut joints = Vec::new();
+    for &(turns, a, d, mass, pseudo, moment) in links {
+        let end = Transform::translation([a, 0.0, d])
+            .then(&Transform::rotation(0, turns * std::f64::consts::FRAC_PI_2));
+        joints.push(Joint {
+            name: format!("joint{}", joints.len() + 1),
+            kind: JointKind::Revolute,
+            pose,
+            body: moved(&end, mass, pseudo, moment),
+            armature: 0.0,
+            viscous_friction: 0.0,
+            coulomb_friction: [0.0; 2],
+            limits: Limits::default(),
+        });
+        pose = end;
+    }
+    Arm { gravity: [0.0, 0.0, -9.81], joints, tip: pose }
+}
+
+/// A body of the frame `at`, in the frame that `at` is placed in: x → R x + t.
+fn moved(at: &Transform, mass: f64, pseudo: [f64; 3], moment: [f64; 3]) -> Body {
+    let (r, t, turned) = (&at.rotation, at.translation, at.turn(moment));
+    let sigma = |i: usize, j: usize| {
+        let central: f64 = (0..3).map(|k| r[i][k] * pseudo[k] * r[j][k]).sum();
+        central + turned[i] * t[j] + t[i] * turned[j] + mass * t[i] * t[j]
+    };
+    Body {
+        mass,
+        first_moment: std::array::from_fn(|i| turned[i] + mass * t[i]),
+        pseudo_inertia: std::array::from_fn(|i| std::array::from_fn(|j| sigma(i, j))),
+    }
+}
+
+/// D̂ a_r + Ĉ v_r + Ĝ, term by term.
+fn expanded(lagrangian: &Lagrangian, reduced: &Reduced) -> Graph {
+    let builder = Builder::new();
+    let input = |variable| builder.input(variable);
+    let mut torque = vec![builder.constant(0.0); lagrangian.dof];
+    for (coefficient, terms) in lagrangian.coefficients.iter().zip(&reduced.combinations) {
+        let value = terms.iter().fold(builder.constant(0.0), |sum, &(l, k)| {
+            sum + builder.constant(k) * psi(&builder, &lagrangian.functions[l])
+        });
+        for place in &coefficient.places {
+            let signed = builder.constant(place.sign) * value;
+            match place.entry {
+                Entry::D(i, j) => {
+                    torque[i] = torque[i] + signed * input(Variable::Ar(j));
+                    if i != j {
+                        torque[j] = torque[j] + signed * input(Variable::Ar(i));
+                    }
+                }
+                Entry::H(i, j, k) => {
+                    let product = |j, k| input(Variable::Vr(j)) * input(Variable::Qd(k));
+                    let pair = if j == k { product(j, j) } else { product(j, k) + product(k, j) };
+                    torque[i] = torque[i] + signed * pair;
+                }
+                Entry::G(i) => torque[i] = torque[i] + signed,
+            }
+        }
+    }
+    let outputs: Vec<_> = torque.iter().map(|torque| torque.id()).collect();
+    builder.finish(&outputs)
+}
+
+/// cos or sin of κ·q, as real or imaginary part of a product of powers.
+fn psi<'g>(builder: &'g Builder, function: &Function) -> Expr<'g> {
+    let (mut re, mut im) = (builder.constant(1.0), builder.constant(0.0));
+    for (joint, &kappa) in function.kappa.iter().enumerate() {
+        let (sin, cos) = builder.sin_cos(joint);
+        let sin = if kappa < 0 { -sin } else { sin };
+        for _ in 0..kappa.unsigned_abs() {
+            (re, im) = (re * cos - im * sin, re * sin + im * cos);
+        }
+    }
+    if function.sine { im } else { re }
+}
+
+fn recursive(arm: &Arm) -> Graph {
+    let builder = Builder::new();
+    let inputs = |variable: fn(usize) -> Variable| -> Vec<Expr> {
+        (0..arm.dof()).map(|j| builder.input(variable(j))).collect()
+    };
+    let position = |j| {
+        let (sin, cos) = builder.sin_cos(j);
+        Position::Revolute { sin, cos }
+    };
+    let q: Vec<_> = (0..arm.dof()).map(position).collect();
+    let (qd, v_r, a_r) = (inputs(Variable::Qd), inputs(Variable::Vr), inputs(Variable::Ar));
+    let torque = passivity_torque(arm, arm.gravity, &q, &qd, &v_r, &a_r);
+    let outputs: Vec<_> = torque.iter().map(|torque| torque.id()).collect();
+    builder.finish(&outputs)
+}

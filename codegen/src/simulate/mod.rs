@@ -1,0 +1,194 @@
+//! Closed-loop simulation, with the very laws and the very controller that run on the device.
+//!
+//! The plant is always the exact arm; the law under test knows only the reduced model.
+
+mod array;
+#[cfg(test)]
+pub(crate) mod example;
+mod metrics;
+mod models;
+mod reference;
+mod run;
+
+use std::path::Path;
+
+use gramforge_runtime::law::{ExactLaw, Gains, ReportLaw, Switching};
+use gramforge_runtime::simulate::JointState;
+use gramforge_runtime::{ConfigError, OnFault, Settings};
+use serde::Serialize;
+
+pub use metrics::{CONVERGED, Metrics};
+pub use models::{ArmModel, GraphModel};
+pub use run::{Run, Trace};
+
+use self::array::{matrix, vector};
+use self::reference::MotionReference;
+use self::run::Rig;
+use crate::arm::Arm;
+use crate::bounds::Bounds;
+use crate::design::Design;
+use crate::error::Error;
+use crate::graph::Graph;
+use crate::motion::Motion;
+use crate::spec::{InitialErrorSpec, LawSpec, OnFaultSpec, SimulationSpec};
+
+/// Runge–Kutta steps a control period, where the specification names none.
+const SUBSTEPS: usize = 10;
+/// Most Runge–Kutta steps of a run: some minutes of computing.
+const MOST_STEPS: f64 = 1e8;
+
+/// Everything that a simulation needs.
+#[derive(Clone, Copy, Debug)]
+pub struct Scenario<'a> {
+    /// The specification, which errors name.
+    pub file: &'a Path,
+    /// The plant, and the exact model.
+    pub arm: &'a Arm,
+    /// The desired motion.
+    pub motion: &'a Motion,
+    /// Law, gains, period and limits.
+    pub design: &'a Design,
+    /// The passivity torque of the reduced model.
+    pub code: &'a Graph,
+    /// What the reduced model leaves out.
+    pub bounds: &'a Bounds,
+    /// Error at time 0: the arm starts at q_d + position, q̇_d + velocity.
+    pub initial: &'a InitialErrorSpec,
+    /// Duration and substeps.
+    pub simulation: &'a SimulationSpec,
+}
+
+/// The same motion of the same arm under two laws with the same gains, period and limits.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Comparison {
+    /// Equation (16) with the exact model.
+    pub exact: Run,
+    /// The specification's law with the reduced model.
+    pub law: Run,
+    /// Which law that is.
+    pub law_kind: LawSpec,
+    /// φ of its boundary layer by joint; `None` for the sign function.
+    pub boundary_layer: Option<Vec<f64>>,
+}
+
+/// Runs both laws. A run that diverges is a result, not an error: see [`Metrics::diverged_at`].
+///
+/// # Errors
+/// [`Error::Input`] where a number of control or simulation cannot be used, [`Error::Internal`] where the parts of
+/// the scenario do not belong to the same arm of 1 to 8 joints.
+pub fn simulate(scenario: &Scenario) -> Result<Comparison, Error> {
+    macro_rules! dispatch {
+        ($($n:literal)*) => {
+            match scenario.arm.dof() {
+                $($n => compare::<$n>(scenario),)*
+                n => Err(Error::Internal(format!("an arm of {n} joints passed its check"))),
+            }
+        };
+    }
+    dispatch!(1 2 3 4 5 6 7 8)
+}
+
+fn compare<const N: usize>(scenario: &Scenario) -> Result<Comparison, Error> {
+    let Scenario { file, arm, design, .. } = *scenario;
+    let rig = rig::<N>(scenario)?;
+    let model = GraphModel::<N>::new(scenario.code, scenario.bounds, arm)?;
+    let plain = ExactLaw { gains: rig.gains, coulomb: vector("Coulomb friction", &design.coulomb)? };
+    let mut delta_c1 = [[0.0; N]; N];
+    for (i, row) in delta_c1.iter_mut().enumerate() {
+        row[i] = design.k_star;
+    }
+    let robust = ReportLaw {
+        gains: rig.gains,
+        delta_c: matrix("ΔC", &design.delta_c)?,
+        delta_c1,
+        switching: match &design.boundary_layer {
+            Some(phi) => Switching::BoundaryLayer(vector("the boundary layer", phi)?),
+            None => Switching::Sign,
+        },
+        coulomb: plain.coulomb,
+    };
+    let (exact, law) = rayon::join(
+        || rig.run(rig.arm, plain),
+        || match design.law {
+            LawSpec::Exact => rig.run(model, plain),
+            LawSpec::Report => rig.run(model, robust),
+        },
+    );
+    let refuse = |error: ConfigError| {
+        let mend = "correct the number of the control or simulation section that it comes from";
+        Error::input(file, "control", error.to_string(), mend)
+    };
+    Ok(Comparison {
+        exact: exact.map_err(refuse)?,
+        law: law.map_err(refuse)?,
+        law_kind: design.law,
+        boundary_layer: design.boundary_layer.clone(),
+    })
+}
+
+fn rig<'a, const N: usize>(scenario: &Scenario<'a>) -> Result<Rig<'a, N>, Error> {
+    let Scenario { arm, motion, design, initial, .. } = *scenario;
+    let coulomb: Vec<[f64; 2]> = arm.joints.iter().map(|joint| joint.coulomb_friction).collect();
+    let (steps, substeps) = steps(scenario)?;
+    Ok(Rig {
+        arm: ArmModel::new(arm)?,
+        coulomb: vector("the arm", &coulomb)?,
+        reference: MotionReference::new(motion)?,
+        initial: JointState {
+            q: vector("the initial error", &initial.position.expand(N))?,
+            qd: vector("the initial error", &initial.velocity.expand(N))?,
+        },
+        gains: Gains {
+            p12: matrix("P12", &design.gains.p12)?,
+            damping: matrix("K", &design.gains.damping)?,
+            pqq: matrix("Pqq", &design.gains.pqq)?,
+        },
+        settings: Settings {
+            period: design.period,
+            torque_limit: vector("the torque limits", &design.torque_limit)?,
+            on_fault: match design.on_fault {
+                OnFaultSpec::Hold => OnFault::Hold,
+                OnFaultSpec::Zero => OnFault::Zero,
+                OnFaultSpec::Gravity => OnFault::Gravity,
+            },
+        },
+        substeps,
+        steps,
+    })
+}
+
+/// Control periods of the run, and Runge–Kutta steps in each.
+fn steps(scenario: &Scenario) -> Result<(u32, u32), Error> {
+    let Scenario { file, motion, design, simulation, .. } = *scenario;
+    let duration = simulation.duration.unwrap_or(motion.duration());
+    let refuse = |field: &str, problem: String, mend: &str| Err(Error::input(file, field, problem, mend));
+    if !(duration.is_finite() && duration > 0.0) {
+        return refuse(
+            "simulation.duration",
+            format!("is {duration} s"),
+            "write a positive number of seconds",
+        );
+    }
+    let substeps = simulation.substeps.unwrap_or(SUBSTEPS);
+    if substeps == 0 {
+        return refuse("simulation.substeps", "is 0".to_string(), "write at least 1, or leave it out for 10");
+    }
+    // A duration of whole periods must not get one more from rounding.
+    let periods = libm::ceil(duration / design.period - 1e-9).max(1.0);
+    let total = periods * substeps as f64;
+    // A period of zero gives infinity or NaN.
+    if total.is_nan() || total > MOST_STEPS {
+        return refuse(
+            "simulation",
+            format!(
+                "{duration} s in periods of {} s with {substeps} substeps are {total:e} steps",
+                design.period
+            ),
+            "simulate a shorter time, or take fewer substeps, to stay under 1e8 steps",
+        );
+    }
+    Ok((periods as u32, substeps as u32))
+}
+
+#[cfg(test)]
+mod tests;
