@@ -33,8 +33,8 @@ fn expect(edit: impl Fn(&mut Value), lines: &[&str]) {
 fn the_samples_are_sound() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     for file in [
-        "generated/specs/arm3",
-        "generated/specs/puma560",
+        "generated/specs/arm3_xi2",
+        "generated/specs/puma560_xi12",
         "tests/data/puma3",
         "tests/data/stanford",
         "tests/data/ur5",

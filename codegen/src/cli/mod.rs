@@ -1,8 +1,10 @@
 //! The command line: one file a subcommand, each a thin shell over the library.
 
+mod demo;
 mod evaluate;
 mod generate;
 mod inspect;
+mod simulate;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -28,15 +30,17 @@ enum Command {
     Inspect(inspect::Inspect),
     Evaluate(evaluate::Evaluate),
     Generate(generate::Generate),
+    Simulate(simulate::Simulate),
 }
 
 /// Runs the command that the process arguments name.
 pub fn run() -> ExitCode {
     let outcome = match Cli::parse().command {
-        None => Ok(String::new()),
+        None => demo::run(),
         Some(Command::Inspect(command)) => command.run(),
         Some(Command::Evaluate(command)) => command.run(),
         Some(Command::Generate(command)) => command.run(),
+        Some(Command::Simulate(command)) => command.run(),
     };
     match outcome {
         Ok(text) => {

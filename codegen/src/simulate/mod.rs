@@ -101,6 +101,7 @@ fn compare<const N: usize>(scenario: &Scenario) -> Result<Comparison, Error> {
         gains: rig.gains,
         delta_c: matrix("ΔC", &design.delta_c)?,
         delta_c1,
+        disturbance: vector("the disturbance", &design.disturbance)?,
         switching: match &design.boundary_layer {
             Some(phi) => Switching::BoundaryLayer(vector("the boundary layer", phi)?),
             None => Switching::Sign,

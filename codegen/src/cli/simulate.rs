@@ -1,0 +1,83 @@
+//! `gramforge simulate`: the closed loop under the exact law and the specification's.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Serialize;
+
+use super::{json, show_warnings};
+use crate::error::Error;
+use crate::output::write_if_changed;
+use crate::pipeline::Generation;
+use crate::report::{metrics_table, plot};
+use crate::simulate::{Comparison, Metrics, Scenario, simulate};
+use crate::spec::LawSpec;
+
+/// Simulates the exact arm under equation (16) with the exact model, and under the specification's law.
+#[derive(Debug, Args)]
+pub(super) struct Simulate {
+    /// The specification file; it needs `motion` and `control`.
+    spec: PathBuf,
+    /// Also draw errors, torques and V over time into this SVG file.
+    #[arg(long)]
+    plot: Option<PathBuf>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Summary<'a> {
+    exact: &'a Metrics,
+    law: &'a Metrics,
+    law_kind: LawSpec,
+    boundary_layer: &'a Option<Vec<f64>>,
+}
+
+impl Simulate {
+    pub(super) fn run(&self) -> Result<String, Error> {
+        let generation = Generation::from_file(&self.spec)?;
+        show_warnings(&generation.warnings);
+        let comparison = simulate_generation(&generation)?;
+        let joints = &generation.arm.joints;
+        if let Some(path) = &self.plot {
+            write_if_changed(path, &plot(&comparison, joints)?)?;
+        }
+        if !self.json {
+            return Ok(metrics_table(&comparison, joints));
+        }
+        json(&Summary {
+            exact: &comparison.exact.metrics,
+            law: &comparison.law.metrics,
+            law_kind: comparison.law_kind,
+            boundary_layer: &comparison.boundary_layer,
+        })
+    }
+}
+
+/// Simulates what a specification describes.
+pub(super) fn simulate_generation(generation: &Generation) -> Result<Comparison, Error> {
+    let spec = &generation.loaded.spec;
+    let missing = |field: &str, what: &str| {
+        let mend = format!("add `{field}` to the specification");
+        Error::input(
+            &generation.loaded.path,
+            field,
+            format!("is missing, and a simulation needs {what}"),
+            mend,
+        )
+    };
+    let motion = generation.motion.as_ref().ok_or_else(|| missing("motion", "a desired motion"))?;
+    let control = spec.control.as_ref().ok_or_else(|| missing("control", "a law"))?;
+    let design = generation.design.as_ref().ok_or_else(|| missing("control", "a law"))?;
+    simulate(&Scenario {
+        file: &generation.loaded.path,
+        arm: &generation.arm,
+        motion,
+        design,
+        code: &generation.code,
+        bounds: &generation.bounds,
+        initial: &control.initial_error,
+        simulation: &spec.simulation,
+    })
+}
