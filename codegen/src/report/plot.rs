@@ -5,7 +5,7 @@ use plotters::prelude::*;
 
 use super::series::{curve, range, tick};
 use super::{law_name, position_unit, torque_unit};
-use crate::arm::Joint;
+use crate::arm::{Joint, JointKind};
 use crate::error::Error;
 use crate::simulate::{Comparison, Run};
 
@@ -48,7 +48,7 @@ fn draw(svg: &mut String, comparison: &Comparison, joints: &[Joint], rows: u32) 
     let rows = body.split_evenly((rows as usize, 1));
     let last = |run: &Run| run.trace.time.last().copied().unwrap_or(0.0);
     let end = last(&comparison.exact).max(last(&comparison.law)).max(1e-6);
-    let curves = |value: &dyn Fn(&Run, usize) -> f64| -> [Vec<(f64, f64)>; 2] {
+    let curves = |value: &dyn Fn(&Run, usize) -> f64| -> Curves {
         [&comparison.exact, &comparison.law].map(|run| {
             let time = &run.trace.time;
             curve(time, (0..time.len()).map(|k| value(run, k)))
@@ -58,69 +58,80 @@ fn draw(svg: &mut String, comparison: &Comparison, joints: &[Joint], rows: u32) 
         let (left, right) = row.split_horizontally(WIDTH / 2);
         let error = curves(&|run, k| run.trace.position_error[k][i]);
         let label = format!("error ({})", position_unit(joint.kind));
-        linear(&left, &format!("{}: position error", joint.name), &label, end, &error)?;
+        linear(&left, &Labels { title: &format!("{}: position error", joint.name), y: &label, end }, &error)?;
         let torque = curves(&|run, k| run.trace.torque[k][i]);
-        let (what, unit) = match joint.kind {
-            crate::arm::JointKind::Revolute => ("torque", torque_unit(joint.kind)),
-            crate::arm::JointKind::Prismatic => ("force", torque_unit(joint.kind)),
+        let what = match joint.kind {
+            JointKind::Revolute => "torque",
+            JointKind::Prismatic => "force",
         };
-        linear(&right, &format!("{}: {what}", joint.name), &format!("{what} ({unit})"), end, &torque)?;
+        let unit = torque_unit(joint.kind);
+        let label = format!("{what} ({unit})");
+        linear(&right, &Labels { title: &format!("{}: {what}", joint.name), y: &label, end }, &torque)?;
     }
     if let Some(row) = rows.last() {
         // libm, so that the points do not depend on the platform's logarithm.
         let decades = curves(&|run, k| libm::log10(run.trace.lyapunov[k]));
-        logarithmic(row, "Lyapunov function V", "V (J)", end, &decades)?;
+        logarithmic(row, &Labels { title: "Lyapunov function V", y: "V (J)", end }, &decades)?;
     }
     root.present()?;
     Ok(())
 }
 
-fn linear(area: &Area, title: &str, label: &str, end: f64, curves: &[Vec<(f64, f64)>; 2]) -> Drawn {
-    let (low, high) = range(curves.iter().flatten());
-    panel(area, title, label, end, (low, high), 5, &|y| tick(*y, high - low), curves)
+/// What one panel says around its curves.
+struct Labels<'a> {
+    title: &'a str,
+    y: &'a str,
+    /// End of the time axis, s.
+    end: f64,
 }
 
-fn logarithmic(area: &Area, title: &str, label: &str, end: f64, curves: &[Vec<(f64, f64)>; 2]) -> Drawn {
+/// The exact law's curve and the other's.
+type Curves = [Vec<(f64, f64)>; 2];
+
+fn linear(area: &Area, labels: &Labels, curves: &Curves) -> Drawn {
+    let (low, high) = range(curves.iter().flatten());
+    panel(area, labels, (low, high), (5, &|y| tick(*y, high - low)), curves)
+}
+
+fn logarithmic(area: &Area, labels: &Labels, curves: &Curves) -> Drawn {
     let heights = || curves.iter().flatten().map(|point| point.1);
     let top = libm::ceil(heights().fold(-DECADES, f64::max)) + 0.0;
     let bottom = libm::floor(heights().fold(top, f64::min)).clamp(top - DECADES, top - 1.0);
     let shown = curves.each_ref().map(|curve| curve.iter().map(|&(x, y)| (x, y.max(bottom))).collect());
     let whole =
-        |y: &f64| if (y - y.round()).abs() < 1e-6 { format!("1e{}", y.round()) } else { String::new() };
-    panel(area, title, label, end, (bottom, top), 8, &whole, &shown)
+        |y: &f64| if (y - y.round()).abs() < 1e-6 { format!("1e{}", y.round() + 0.0) } else { String::new() };
+    panel(area, labels, (bottom, top), (8, &whole), &shown)
 }
 
+/// Draws both curves over the interval of heights, with about so many ticks, written so.
 fn panel(
     area: &Area,
-    title: &str,
-    label: &str,
-    end: f64,
+    labels: &Labels,
     (low, high): (f64, f64),
-    y_ticks: usize,
-    y_tick: &dyn Fn(&f64) -> String,
-    [exact, law]: &[Vec<(f64, f64)>; 2],
+    (ticks, write_tick): (usize, &dyn Fn(&f64) -> String),
+    [exact, law]: &Curves,
 ) -> Drawn {
     let text = |size: u32| (FONT, size).into_font().color(&BLACK);
     let mut chart = ChartBuilder::on(area)
-        .caption(title, text(30))
+        .caption(labels.title, text(30))
         .margin(12)
         .margin_right(30)
         .x_label_area_size(62)
         .y_label_area_size(112)
-        .build_cartesian_2d(0.0..end, low..high)?;
+        .build_cartesian_2d(0.0..labels.end, low..high)?;
     chart
         .configure_mesh()
         .x_desc("time (s)")
-        .y_desc(label)
+        .y_desc(labels.y)
         .axis_desc_style(text(26))
         .label_style(text(24))
         .axis_style(FRAME)
         .bold_line_style(GRID)
         .light_line_style(TRANSPARENT)
         .x_labels(6)
-        .y_labels(y_ticks)
-        .x_label_formatter(&|x| tick(*x, end))
-        .y_label_formatter(&y_tick)
+        .y_labels(ticks)
+        .x_label_formatter(&|x| tick(*x, labels.end))
+        .y_label_formatter(&write_tick)
         .draw()?;
     chart.draw_series(LineSeries::new(law.iter().copied(), law_style()))?;
     // Above the other and dashed, so that both are seen where they coincide.

@@ -2,7 +2,7 @@
 
 use super::grid::{Grid, short};
 use super::{Claim, law_name, position_unit, torque_unit};
-use crate::arm::Joint;
+use crate::arm::{Joint, JointKind};
 use crate::bounds::Bounds;
 use crate::graph::Operations;
 use crate::simulate::{CONVERGED, Comparison, Metrics, Run};
@@ -44,7 +44,7 @@ pub fn metrics_table(comparison: &Comparison, joints: &[Joint]) -> String {
     grid.render()
 }
 
-type Unit = fn(crate::arm::JointKind) -> &'static str;
+type Unit = fn(JointKind) -> &'static str;
 type PerJoint = fn(&Metrics) -> &[f64];
 
 /// The bounds (26)–(28) that are not zero, one a line; h_ijk with j ≤ k stands for h_ikj too.

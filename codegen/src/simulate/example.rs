@@ -4,15 +4,15 @@ use std::path::Path;
 
 use super::{Comparison, Scenario, simulate};
 use crate::arm::{Arm, Body, Joint, JointKind, Limits, Transform};
+use crate::body::{expanded, recursive};
 use crate::bounds::{Bounds, sampled};
 use crate::design::{Design, Gains, design, envelope};
-use crate::dynamics::{Position, passivity_torque};
 use crate::error::Error;
-use crate::graph::{Builder, Expr, Graph, Variable};
-use crate::lagrangian::{Entry, Function, Lagrangian, expand};
+use crate::graph::Graph;
+use crate::lagrangian::expand;
 use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
-use crate::reduction::{Reduced, shared};
+use crate::reduction::shared;
 use crate::spec::{
     ControlSpec, InitialErrorSpec, LawSpec, MatrixSpec, OnFaultSpec, SimulationSpec, VectorSpec,
 };
@@ -50,7 +50,7 @@ impl Example {
                 let lagrangian = expand(&arm);
                 let reduced = shared(&lagrangian, &measure, functions);
                 let deltas = sampled(&lagrangian, &reduced, &tube, Some(&motion));
-                (expanded(&lagrangian, &reduced), Bounds::new(&lagrangian, &deltas))
+                (expanded(&arm, &lagrangian, &reduced), Bounds::new(&lagrangian, &deltas))
             }
             None => {
                 let bounds =
@@ -155,64 +155,4 @@ fn moved(at: &Transform, mass: f64, pseudo: [f64; 3], moment: [f64; 3]) -> Body 
         first_moment: std::array::from_fn(|i| turned[i] + mass * t[i]),
         pseudo_inertia: std::array::from_fn(|i| std::array::from_fn(|j| sigma(i, j))),
     }
-}
-
-/// D̂ a_r + Ĉ v_r + Ĝ, term by term.
-fn expanded(lagrangian: &Lagrangian, reduced: &Reduced) -> Graph {
-    let builder = Builder::new();
-    let input = |variable| builder.input(variable);
-    let mut torque = vec![builder.constant(0.0); lagrangian.dof];
-    for (coefficient, terms) in lagrangian.coefficients.iter().zip(&reduced.combinations) {
-        let value = terms.iter().fold(builder.constant(0.0), |sum, &(l, k)| {
-            sum + builder.constant(k) * psi(&builder, &lagrangian.functions[l])
-        });
-        for place in &coefficient.places {
-            let signed = builder.constant(place.sign) * value;
-            match place.entry {
-                Entry::D(i, j) => {
-                    torque[i] = torque[i] + signed * input(Variable::Ar(j));
-                    if i != j {
-                        torque[j] = torque[j] + signed * input(Variable::Ar(i));
-                    }
-                }
-                Entry::H(i, j, k) => {
-                    let product = |j, k| input(Variable::Vr(j)) * input(Variable::Qd(k));
-                    let pair = if j == k { product(j, j) } else { product(j, k) + product(k, j) };
-                    torque[i] = torque[i] + signed * pair;
-                }
-                Entry::G(i) => torque[i] = torque[i] + signed,
-            }
-        }
-    }
-    let outputs: Vec<_> = torque.iter().map(|torque| torque.id()).collect();
-    builder.finish(&outputs)
-}
-
-/// cos or sin of κ·q, as real or imaginary part of a product of powers.
-fn psi<'g>(builder: &'g Builder, function: &Function) -> Expr<'g> {
-    let (mut re, mut im) = (builder.constant(1.0), builder.constant(0.0));
-    for (joint, &kappa) in function.kappa.iter().enumerate() {
-        let (sin, cos) = builder.sin_cos(joint);
-        let sin = if kappa < 0 { -sin } else { sin };
-        for _ in 0..kappa.unsigned_abs() {
-            (re, im) = (re * cos - im * sin, re * sin + im * cos);
-        }
-    }
-    if function.sine { im } else { re }
-}
-
-fn recursive(arm: &Arm) -> Graph {
-    let builder = Builder::new();
-    let inputs = |variable: fn(usize) -> Variable| -> Vec<Expr> {
-        (0..arm.dof()).map(|j| builder.input(variable(j))).collect()
-    };
-    let position = |j| {
-        let (sin, cos) = builder.sin_cos(j);
-        Position::Revolute { sin, cos }
-    };
-    let q: Vec<_> = (0..arm.dof()).map(position).collect();
-    let (qd, v_r, a_r) = (inputs(Variable::Qd), inputs(Variable::Vr), inputs(Variable::Ar));
-    let torque = passivity_torque(arm, arm.gravity, &q, &qd, &v_r, &a_r);
-    let outputs: Vec<_> = torque.iter().map(|torque| torque.id()).collect();
-    builder.finish(&outputs)
 }

@@ -26,11 +26,12 @@ use self::reference::MotionReference;
 use self::run::Rig;
 use crate::arm::Arm;
 use crate::bounds::Bounds;
-use crate::design::Design;
+use crate::check;
+use crate::design::{Design, checked};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::motion::Motion;
-use crate::spec::{InitialErrorSpec, LawSpec, OnFaultSpec, SimulationSpec};
+use crate::spec::{InitialErrorSpec, LawSpec, OnFaultSpec, SimulationSpec, VectorSpec};
 
 /// Runge–Kutta steps a control period, where the specification names none.
 const SUBSTEPS: usize = 10;
@@ -93,14 +94,10 @@ fn compare<const N: usize>(scenario: &Scenario) -> Result<Comparison, Error> {
     let rig = rig::<N>(scenario)?;
     let model = GraphModel::<N>::new(scenario.code, scenario.bounds, arm)?;
     let plain = ExactLaw { gains: rig.gains, coulomb: vector("Coulomb friction", &design.coulomb)? };
-    let mut delta_c1 = [[0.0; N]; N];
-    for (i, row) in delta_c1.iter_mut().enumerate() {
-        row[i] = design.k_star;
-    }
     let robust = ReportLaw {
         gains: rig.gains,
         delta_c: matrix("ΔC", &design.delta_c)?,
-        delta_c1,
+        delta_c1: matrix("ΔC1", &design.delta_c1())?,
         disturbance: vector("the disturbance", &design.disturbance)?,
         switching: match &design.boundary_layer {
             Some(phi) => Switching::BoundaryLayer(vector("the boundary layer", phi)?),
@@ -136,8 +133,8 @@ fn rig<'a, const N: usize>(scenario: &Scenario<'a>) -> Result<Rig<'a, N>, Error>
         coulomb: vector("the arm", &coulomb)?,
         reference: MotionReference::new(motion)?,
         initial: JointState {
-            q: vector("the initial error", &initial.position.expand(N))?,
-            qd: vector("the initial error", &initial.velocity.expand(N))?,
+            q: initial_error("position", &initial.position)?,
+            qd: initial_error("velocity", &initial.velocity)?,
         },
         gains: Gains {
             p12: matrix("P12", &design.gains.p12)?,
@@ -156,6 +153,10 @@ fn rig<'a, const N: usize>(scenario: &Scenario<'a>) -> Result<Rig<'a, N>, Error>
         substeps,
         steps,
     })
+}
+
+fn initial_error<const N: usize>(name: &str, error: &VectorSpec) -> Result<[f64; N], Error> {
+    vector("the initial error", &checked(&format!("control.initial_error.{name}"), check::vector(error, N))?)
 }
 
 /// Control periods of the run, and Runge–Kutta steps in each.

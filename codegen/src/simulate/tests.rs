@@ -1,6 +1,5 @@
 use super::example::{Example, three_link};
 use super::*;
-use crate::spec::VectorSpec;
 
 #[test]
 fn the_exact_law_converges_on_the_reports_arm() {
