@@ -63,6 +63,14 @@ pub fn indefinite(arm: &Arm, mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>) -> O
     (1..=SAMPLES).map(inside).chain((0..corners).map(corner)).find_map(|q| judge(&mass_matrix(&q), q))
 }
 
+/// The first of `positions` at which `mass_matrix` fails as in [`indefinite`].
+pub fn indefinite_among<'a>(
+    positions: impl IntoIterator<Item = &'a Vec<f64>>,
+    mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>,
+) -> Option<Indefinite> {
+    positions.into_iter().find_map(|q| judge(&mass_matrix(q), q.clone()))
+}
+
 /// Point `index` ≥ 1 of van der Corput's sequence in `base`, in (0, 1).
 fn halton(mut index: usize, base: u32) -> f64 {
     let (mut out, mut digit) = (0.0, 1.0);
