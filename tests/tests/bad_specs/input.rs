@@ -120,7 +120,7 @@ pub fn faults(folder: &Path, specs: &[PathBuf]) -> Vec<String> {
     assert_eq!(again.expect(2).stderr, outcome.stderr, "the same faults every time");
     assert!(!fresh.exists(), "the output folder was created");
     let files: Vec<_> = fs::read_dir(&out).expect("a folder").map(|e| e.expect("an entry").path()).collect();
-    assert_eq!(files, [standing.clone()], "nothing else was written");
+    assert_eq!(files.as_slice(), std::slice::from_ref(&standing), "nothing else was written");
     assert_eq!(fs::read_to_string(&standing).expect("readable"), "standing\n");
     assert_eq!(fs::metadata(&standing).and_then(|m| m.modified()).expect("a time"), before);
     outcome.stderr.lines().map(str::to_string).collect()
