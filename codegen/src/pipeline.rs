@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use crate::arm::{Arm, indefinite};
+use crate::arm::{Arm, Built, indefinite, indefinite_among};
 use crate::body::{self, Form};
 use crate::bounds::{Bounds, sampled};
-use crate::check::{Checked, from_loaded, vector};
+use crate::check::{examine, vector};
 use crate::design::{Design, Gains, checked, design, envelope};
 use crate::dynamics::mass_matrix;
 use crate::emit::{Module, emit};
@@ -14,12 +14,15 @@ use crate::graph::Graph;
 use crate::lagrangian::{Lagrangian, expand};
 use crate::load::{Loaded, load, spec_hash};
 use crate::measure::{Domain, Measure};
-use crate::motion::{Motion, check_limits};
+use crate::motion::Motion;
 use crate::reduction::{self, Reduced};
 use crate::spec::{MeasureSpec, ModelSpec, Spec};
 
 /// Half-width of the tube where the specification names no measure, rad or m.
 const DEFAULT_TUBE: f64 = 0.05;
+
+/// Positions of the domain at which D is looked at.
+const POSITIONS: usize = 512;
 
 /// Everything that follows from one specification.
 ///
@@ -67,17 +70,13 @@ impl Generation {
     /// # Errors
     /// As [`Generation::from_file`].
     pub fn new(loaded: Loaded) -> Result<Self, Error> {
-        let Checked { loaded, built } = from_loaded(loaded)?;
-        let arm = built.arm;
-        let spec = &loaded.spec;
         let mut faults = Faults::of(&loaded.path);
-        let motion =
-            spec.motion.as_ref().and_then(|motion| Motion::from_spec(motion, arm.dof(), &mut faults));
-        if let Some(motion) = &motion {
-            check_limits(motion, &arm, &mut faults);
-        }
+        let (built, motion) = examine(&loaded, &mut faults);
+        let Some(Built { arm, warnings }) = built else { return Err(faults.into_error()) };
+        let spec = &loaded.spec;
         if let Some(state) = indefinite(&arm, |q| mass_matrix(&arm, q)) {
             state.report(&mut faults);
+            return Err(faults.into_error());
         }
         let lagrangian = expand(&arm);
         check_count(spec, &lagrangian, &mut faults);
@@ -85,11 +84,28 @@ impl Generation {
 
         let domain = domain(spec, &arm)?;
         let measure = Measure::new(&domain, motion.as_ref(), &arm);
+        let refused = |report: &dyn Fn(&mut Faults)| {
+            let mut faults = Faults::of(&loaded.path);
+            report(&mut faults);
+            Err(faults.into_error())
+        };
+        // The domain may hold states that the look at the limits has missed, such as a wrist stretched out.
+        let stride = measure.points.len().div_ceil(POSITIONS).max(1);
+        let positions = measure.points.iter().step_by(stride);
+        if let Some(state) = indefinite_among(positions, |q| mass_matrix(&arm, q)) {
+            return refused(&|faults| state.report(faults));
+        }
         let reduced = match spec.model {
             ModelSpec::Exact => reduction::exact(&lagrangian),
             ModelSpec::Shared { functions } => reduction::shared(&lagrangian, &measure, functions),
         };
         let bounds = Bounds::new(&lagrangian, &sampled(&lagrangian, &reduced, &domain, motion.as_ref()));
+        if !(reduced.is_finite() && bounds.is_finite()) {
+            let mend = "write positions, speeds and the measure in SI units";
+            return refused(&|faults| {
+                faults.push("measure", "reaches states at which the model overflows", mend)
+            });
+        }
         let (exact_form, exact_code) = body::exact(&arm, &lagrangian);
         let (form, code) = match spec.model {
             ModelSpec::Exact => (exact_form, exact_code.clone()),
@@ -105,9 +121,14 @@ impl Generation {
                 design(control, &arm, &bounds, envelope)
             })
             .transpose()?;
+        if design.as_ref().is_some_and(|design| !design.is_finite()) {
+            let problem = "gives gains or bounds on the errors that overflow";
+            let mend = "write gains and initial errors in SI units";
+            return refused(&|faults| faults.push("control", problem, mend));
+        }
         Ok(Self {
             arm,
-            warnings: built.warnings,
+            warnings,
             motion,
             domain,
             lagrangian,

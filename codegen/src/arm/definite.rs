@@ -50,6 +50,14 @@ pub fn indefinite(arm: &Arm, mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>) -> O
     units.map(|unit| in_box(&limits, &unit)).find_map(|q| judge(&mass_matrix(&q), q))
 }
 
+/// The first of `positions` at which `mass_matrix` fails as in [`indefinite`].
+pub fn indefinite_among<'a>(
+    positions: impl IntoIterator<Item = &'a Vec<f64>>,
+    mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>,
+) -> Option<Indefinite> {
+    positions.into_iter().find_map(|q| judge(&mass_matrix(q), q.clone()))
+}
+
 fn judge(d: &[Vec<f64>], q: Vec<f64>) -> Option<Indefinite> {
     let n = d.len();
     let entry = |i: usize, j: usize| d.get(i).and_then(|row| row.get(j)).copied().unwrap_or(f64::NAN);

@@ -10,7 +10,7 @@ mod urdf;
 mod validate;
 
 pub use crate::spec::JointKind;
-pub use definite::{Indefinite, indefinite};
+pub use definite::{Indefinite, indefinite, indefinite_among};
 pub use transform::Transform;
 
 use crate::error::Faults;

@@ -18,6 +18,12 @@ pub struct Bounds {
 }
 
 impl Bounds {
+    /// True where every bound is a finite number.
+    pub fn is_finite(&self) -> bool {
+        let h = self.h.iter().flatten();
+        self.d.iter().chain(h).chain([&self.g]).flatten().all(|v| v.is_finite())
+    }
+
     /// Spreads one bound for each coefficient over the places where it stands.
     pub fn new(lagrangian: &Lagrangian, deltas: &[f64]) -> Self {
         let n = lagrangian.dof;

@@ -1,56 +1,35 @@
-//! Whether the numbers of a specification make sense together with its arm, and the way from file to checked input.
+//! Whether the numbers of a specification make sense together with its arm.
 
 mod control;
 mod measure;
 mod motion;
 mod shape;
 
-use std::path::Path;
-
-use crate::arm::{Arm, Built};
-use crate::error::{Error, Faults};
-use crate::load::{Loaded, load};
+use crate::arm::{Arm, Built, MOST_JOINTS};
+use crate::error::Faults;
+use crate::load::Loaded;
+use crate::motion::Motion;
 use crate::spec::{ModelSpec, Spec};
 
 pub use shape::{matrix, vector};
 
-/// A specification that passed every check that needs no dynamics.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Checked {
-    /// The specification and its files.
-    pub loaded: Loaded,
-    /// Its arm and the warnings about it.
-    pub built: Built,
-}
-
-/// Reads the specification at `path`, builds its arm and checks all values.
+/// Builds arm and motion of a specification and checks all values that need no dynamics.
 ///
-/// # Errors
-/// Those of [`load`]; else [`Error::Input`] with every fault of arm and values together.
-pub fn prepare(path: &Path) -> Result<Checked, Error> {
-    from_loaded(load(path)?)
+/// Every fault goes to `faults`; `None` stands for an arm or a motion that is at fault, or for no motion.
+pub fn examine(loaded: &Loaded, faults: &mut Faults) -> (Option<Built>, Option<Motion>) {
+    let built = Arm::from_spec(loaded, faults);
+    let motion = check(&loaded.spec, built.as_ref().map(|b| &b.arm), faults);
+    (built, motion)
 }
 
-/// The same from a specification that is read already.
-///
-/// # Errors
-/// [`Error::Input`] with every fault of arm and values together.
-pub fn from_loaded(loaded: Loaded) -> Result<Checked, Error> {
-    let mut faults = Faults::of(&loaded.path);
-    let built = Arm::from_spec(&loaded, &mut faults);
-    check(&loaded.spec, built.as_ref().map(|b| &b.arm), &mut faults);
-    match built {
-        Some(built) => faults.finish(Checked { loaded, built }),
-        None => Err(faults.into_error()),
-    }
-}
-
-/// Checks every field that is not the arm's own.
+/// Checks every field that is not the arm's own, and gives the motion.
 ///
 /// Without an arm (because it is at fault) the number of joints is taken from the DH table, and what needs to know
 /// more is passed over.
-pub fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) {
-    let joints = arm.map(Arm::dof).or_else(|| spec.arm.dh.as_ref().map(|table| table.links.len()));
+fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> {
+    let table = || spec.arm.dh.as_ref().map(|table| table.links.len());
+    // A table with too many links says nothing about the lengths that are meant.
+    let joints = arm.map(Arm::dof).or_else(table).filter(|n| (1..=MOST_JOINTS).contains(n));
     name(&spec.name, faults);
     match &spec.model {
         ModelSpec::Shared { functions: 0 } => {
@@ -58,9 +37,7 @@ pub fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) {
         }
         ModelSpec::Shared { .. } | ModelSpec::Exact => {}
     }
-    if let Some(motion) = &spec.motion {
-        motion::check(motion, joints, faults);
-    }
+    let motion = spec.motion.as_ref().and_then(|motion| motion::check(motion, arm, joints, faults));
     measure::check(spec, arm, joints, faults);
     if let Some(control) = &spec.control {
         control::check(control, joints, faults);
@@ -71,6 +48,7 @@ pub fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) {
     if spec.simulation.substeps == Some(0) {
         faults.push("simulation.substeps", "is 0", "write a whole number of at least 1");
     }
+    motion
 }
 
 /// Words that cannot name a Rust module.

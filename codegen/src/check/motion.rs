@@ -1,11 +1,33 @@
-//! Motions: as many numbers as joints, times that run forwards.
+//! Motions: as many numbers as joints, times that run forwards, positions within limits.
 
 use super::shape::{has, length};
+use crate::arm::Arm;
 use crate::error::Faults;
+use crate::motion::{Motion, check_limits};
 use crate::spec::MotionSpec;
 
-/// Checks the fields of `motion`; a CSV table is checked where it is read.
-pub(super) fn check(motion: &MotionSpec, joints: Option<usize>, faults: &mut Faults) {
+/// The motion that `spec` describes, where nothing is wrong with its fields or its table; against the limits of the
+/// arm where that is known.
+pub(super) fn check(
+    spec: &MotionSpec,
+    arm: Option<&Arm>,
+    joints: Option<usize>,
+    faults: &mut Faults,
+) -> Option<Motion> {
+    let before = faults.count();
+    fields(spec, joints, faults);
+    if faults.count() > before {
+        return None;
+    }
+    let motion = Motion::from_spec(spec, joints?, faults)?;
+    if let Some(arm) = arm {
+        check_limits(&motion, arm, faults);
+    }
+    Some(motion)
+}
+
+/// Checks the fields; a CSV table is checked where it is read.
+fn fields(motion: &MotionSpec, joints: Option<usize>, faults: &mut Faults) {
     match motion {
         MotionSpec::Quintic { from, to, duration } => {
             length("motion.quintic.from", from.len(), joints, faults);

@@ -56,6 +56,13 @@ struct Evaluation {
     tau: Vec<f64>,
 }
 
+impl Evaluation {
+    fn is_finite(&self) -> bool {
+        let rows = self.D.iter().chain(&self.C).chain(self.H.iter().flatten()).chain([&self.G, &self.tau]);
+        rows.flatten().all(|v| v.is_finite())
+    }
+}
+
 impl Evaluate {
     pub(super) fn run(&self) -> Result<String, Error> {
         let generation = Generation::from_file(&self.spec)?;
@@ -63,6 +70,15 @@ impl Evaluate {
         let states = read(&self.states, generation.arm.dof())?;
         let evaluations: Vec<Evaluation> =
             states.iter().map(|state| self.evaluate(&generation, state)).collect();
+        let mut faults = Faults::of(&self.states);
+        for (index, _) in evaluations.iter().enumerate().filter(|(_, e)| !e.is_finite()) {
+            faults.push(
+                format!("[{index}]"),
+                "overflows",
+                "write positions, speeds and accelerations in SI units",
+            );
+        }
+        let evaluations = faults.finish(evaluations)?;
         if self.json { json(&evaluations) } else { Ok(text(&evaluations)) }
     }
 

@@ -6,8 +6,12 @@ fn dense(m: &[Vec<f64>]) -> DMatrix<f64> {
     DMatrix::from_fn(m.len(), m.len(), |i, j| m[i][j])
 }
 
-/// Eigenvalues of a symmetric matrix, ascending.
+/// Eigenvalues of a symmetric matrix, ascending; NaN where an entry is not finite.
 pub(crate) fn symmetric_eigenvalues(m: &[Vec<f64>]) -> Vec<f64> {
+    // The iteration need not end on NaN.
+    if !m.iter().flatten().all(|v| v.is_finite()) {
+        return vec![f64::NAN; m.len()];
+    }
     let mut values: Vec<f64> = dense(m).symmetric_eigenvalues().iter().copied().collect();
     values.sort_by(f64::total_cmp);
     values

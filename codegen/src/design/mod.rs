@@ -81,6 +81,13 @@ pub fn design(
 }
 
 impl Design {
+    /// True where everything that is computed is a finite number.
+    pub fn is_finite(&self) -> bool {
+        let Envelope { v_max, position_error, velocity_error, speed } = &self.envelope;
+        let lists = [position_error, velocity_error, speed].into_iter().chain(&self.delta_c);
+        self.gains.is_finite() && lists.flatten().chain([v_max, &self.k_star]).all(|v| v.is_finite())
+    }
+
     /// ΔC1 = k*·I, n×n by rows.
     pub fn delta_c1(&self) -> Vec<Vec<f64>> {
         let n = self.delta_c.len();

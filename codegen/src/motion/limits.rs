@@ -7,10 +7,19 @@ use crate::error::Faults;
 /// Instants at which a motion is compared with the limits.
 const INSTANTS: u32 = 2000;
 
-/// Adds one fault for each limit of each joint that the motion breaks, with the worst instant.
+/// Adds one fault for each limit of each joint that the motion breaks, with the worst instant; one alone where its
+/// numbers overflow.
 pub fn check_limits(motion: &Motion, arm: &Arm, faults: &mut Faults) {
     let times = (0..=INSTANTS).map(|k| motion.duration() * f64::from(k) / f64::from(INSTANTS));
     let targets: Vec<_> = times.map(|t| (t, motion.at(t))).collect();
+    let finite = |target: &super::Target| {
+        [&target.q, &target.qd, &target.qdd].into_iter().flatten().all(|v| v.is_finite())
+    };
+    if let Some((t, _)) = targets.iter().find(|(_, target)| !finite(target)) {
+        let problem = format!("overflows at t = {t:.3e} s");
+        faults.push("motion", problem, "write times and positions in SI units");
+        return;
+    }
     for (i, joint) in arm.joints.iter().enumerate() {
         let number = i + 1;
         let mut compare = |what: &str, value: fn(&super::Target) -> &[f64], low: f64, high: f64| {

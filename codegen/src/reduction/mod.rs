@@ -29,6 +29,11 @@ pub struct Reduced {
 }
 
 impl Reduced {
+    /// True where every parameter is a finite number.
+    pub fn is_finite(&self) -> bool {
+        self.combinations.iter().flatten().all(|(_, k)| k.is_finite())
+    }
+
     /// The residual α_m − α̂_m of coefficient `m` as one combination.
     pub fn residual(&self, lagrangian: &Lagrangian, m: usize) -> Combination {
         let (exact, kept) = (&lagrangian.coefficients[m].terms, &self.combinations[m]);

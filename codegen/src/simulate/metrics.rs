@@ -18,7 +18,8 @@ pub struct Metrics {
     pub rms_error_total: f64,
     /// |q_e| at the last instant, rad or m.
     pub final_error: Vec<f64>,
-    /// The first instant from which on every joint stays within [`CONVERGED`], s; `None` where there is none.
+    /// The last control instant at which the error of some joint exceeds [`CONVERGED`], s; 0 where none ever does,
+    /// `None` where one still does at the end.
     pub convergence_time: Option<f64>,
     /// Σ_k |τ_k+1 − τ_k|, N·m or N: what chatter raises.
     pub torque_total_variation: Vec<f64>,
@@ -65,8 +66,11 @@ impl Metrics {
 
 fn convergence_time(trace: &Trace) -> Option<f64> {
     let outside = |q_e: &Vec<f64>| q_e.iter().any(|e| e.abs() > CONVERGED);
-    let first_inside = trace.position_error.iter().rposition(outside).map_or(0, |last| last + 1);
-    trace.time.get(first_inside).copied()
+    match trace.position_error.iter().rposition(outside) {
+        None => Some(0.0),
+        Some(last) if last + 1 == trace.position_error.len() => None,
+        Some(last) => trace.time.get(last).copied(),
+    }
 }
 
 #[cfg(test)]
@@ -90,14 +94,14 @@ mod tests {
         assert_eq!(metrics.final_error, [0.0, 0.0]);
         assert_eq!(metrics.torque_total_variation, [11.0, 0.0]);
         assert_eq!(metrics.peak_torque, [4.0, 1.0]);
-        assert_eq!(metrics.convergence_time, Some(1.0));
+        assert_eq!(metrics.convergence_time, Some(0.5));
         assert_eq!((metrics.saturated_steps, metrics.faulted_steps), (3, 1));
     }
 
     #[test]
     fn convergence_is_for_good() {
         let time = |errors: &[f64]| Metrics::new(&trace(errors), 2, 0, 0, None).convergence_time;
-        assert_eq!(time(&[0.2, 0.005, -0.02, 0.009]), Some(1.5));
+        assert_eq!(time(&[0.2, 0.005, -0.02, 0.009]), Some(1.0));
         assert_eq!(time(&[0.01, 0.0]), Some(0.0));
         assert_eq!(time(&[0.0, 0.02]), None);
         assert_eq!(Metrics::new(&trace(&[0.0, 0.0]), 2, 0, 0, Some(1.0)).convergence_time, None);

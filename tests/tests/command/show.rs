@@ -1,0 +1,111 @@
+//! `gramforge inspect` and `gramforge simulate`: the keys that others read, with the right numbers.
+
+use std::fs;
+
+use serde_json::{Value, json};
+
+use crate::common::{committed, finish, gramforge, run, text, value};
+
+#[test]
+fn inspect_knows_the_three_link_arm() {
+    let view = run(["inspect", &text(&committed("arm3_xi2")), "--json"]).json();
+    assert_eq!(view["name"], "arm3_xi2");
+    assert_eq!(view["joints"], 3);
+    assert_eq!(view["functions"], 11);
+    assert_eq!(view["coefficients"], 9);
+    assert_eq!(view["terms"], 20);
+    assert_eq!(view["selected"].as_array().map(Vec::len), Some(2));
+    let lengths = |key: &str| view["bounds"][key].as_array().map(Vec::len);
+    assert!(["D", "H", "G", "C"].iter().all(|key| lengths(key) == Some(3)), "{}", view["bounds"]);
+    for kind in ["reduced", "exact"] {
+        for operation in ["mul", "add", "trig_pairs"] {
+            assert!(view["operations"][kind][operation].is_u64(), "{kind} {operation}");
+        }
+    }
+    assert_eq!(view["operations"]["exact"]["trig_pairs"], 2);
+}
+
+#[test]
+fn inspect_of_the_exact_model_leaves_nothing_out() {
+    let view = run(["inspect", &text(&committed("arm3_exact")), "--json"]).json();
+    assert_eq!(view["selected"], json!([]));
+    assert_eq!(view["bounds"]["G"], json!([0.0, 0.0, 0.0]));
+    assert_eq!(view["bounds"]["D"], json!([[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]));
+    assert_eq!(view["operations"]["reduced"], view["operations"]["exact"]);
+}
+
+#[test]
+fn inspect_in_words() {
+    let shown = run(["inspect", &text(&committed("arm3_xi2"))]).expect(0).stdout;
+    assert!(shown.contains("11 functions, 9 distinct coefficients, 20 terms"), "{shown}");
+}
+
+fn simulated(edit: impl Fn(&mut Value)) -> Value {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut spec = value("arm3_xi2");
+    edit(&mut spec);
+    let path = folder.path().join("arm.json");
+    fs::write(&path, spec.to_string()).expect("written");
+    finish(gramforge().arg("simulate").arg(path).arg("--json")).json()
+}
+
+#[test]
+fn simulate_sums_up_both_laws() {
+    let summary = simulated(|spec| spec["simulation"] = json!({ "duration": 1.0, "substeps": 4 }));
+    assert_eq!(summary["law_kind"], "report");
+    for law in ["exact", "law"] {
+        let metrics = &summary[law];
+        for key in ["rms_error", "torque_total_variation", "peak_torque", "final_error"] {
+            let list = metrics[key].as_array().expect("a list");
+            assert_eq!(list.len(), 3, "{law} {key}");
+            assert!(list.iter().all(|v| v.as_f64().is_some_and(|v| v >= 0.0)), "{law} {key}");
+        }
+        assert!(metrics.get("convergence_time").is_some_and(|v| v.is_null() || v.is_f64()));
+    }
+}
+
+#[test]
+fn convergence_is_the_last_instant_outside() {
+    let short = simulated(|spec| spec["simulation"] = json!({ "duration": 0.05 }));
+    assert_eq!(short["exact"]["convergence_time"], Value::Null, "still 0.2 rad away");
+    let quiet = simulated(|spec| {
+        spec["simulation"] = json!({ "duration": 0.5 });
+        spec["control"]["initial_error"] = json!({});
+    });
+    assert_eq!(quiet["exact"]["convergence_time"], 0.0, "never away");
+    let whole = simulated(|_| {});
+    let time = whole["exact"]["convergence_time"].as_f64().expect("it converges");
+    assert!(
+        time > 0.1 && (time / 0.01 - (time / 0.01).round()).abs() < 1e-9,
+        "an instant of control: {time}"
+    );
+    // One more period and the run ends inside; none and it still ends outside.
+    let ended = |duration: f64| simulated(|spec| spec["simulation"] = json!({ "duration": duration }));
+    assert_eq!(ended(time)["exact"]["convergence_time"], Value::Null);
+    assert_eq!(ended(time + 0.01)["exact"]["convergence_time"], time);
+}
+
+#[test]
+fn simulate_needs_a_law_and_draws_a_plot() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut spec = value("arm3_xi2");
+    spec["simulation"] = json!({ "duration": 0.2 });
+    let path = folder.path().join("arm.json");
+    fs::write(&path, spec.to_string()).expect("written");
+    let plot = folder.path().join("plots/arm.svg");
+    let mut command = gramforge();
+    finish(command.arg("simulate").arg(&path).arg("--plot").arg(&plot)).expect(0);
+    assert!(fs::read_to_string(&plot).expect("a plot").starts_with("<svg"));
+    spec.as_object_mut().expect("an object").remove("control");
+    fs::write(&path, spec.to_string()).expect("written");
+    let refused = run(["simulate", &text(&path)]).expect(2);
+    assert!(refused.stderr.contains("control: is missing") && refused.stderr.contains("; add `control`"));
+}
+
+#[test]
+fn the_demonstration_runs_where_it_may_write() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let shown = finish(gramforge().current_dir(&folder)).expect(0).stdout;
+    assert!(shown.contains("The report's claims"), "{shown}");
+    assert!(folder.path().join("target/gramforge/arm3.rs").exists());
+}
