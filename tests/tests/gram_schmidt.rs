@@ -2,7 +2,7 @@
 
 use gramforge::arm::Arm;
 use gramforge::lagrangian::{Lagrangian, evaluate, expand};
-use gramforge::measure::{Domain, Measure, joint_box};
+use gramforge::measure::{Domain, Measure};
 use gramforge::motion::Motion;
 use gramforge::reduction::{GramSchmidt, Reduced, Samples, shared, weight};
 use gramforge_tests::random::Random;
@@ -116,7 +116,7 @@ fn selection_and_parameters_are_those_of_qr() {
     let case = Case::of("arm3_xi2");
     for functions in 1..=6 {
         compare("arm3, tube", &case, &case.tube(0.2), functions);
-        compare("arm3, workspace", &case, &case.measure(&Domain::Workspace(joint_box(&case.arm))), functions);
+        compare("arm3, workspace", &case, &case.measure(&Domain::Workspace(case.arm.joint_box())), functions);
     }
     let case = Case::of("puma560_xi12");
     compare("puma560, tube", &case, &case.tube(0.1), 12);
@@ -143,7 +143,7 @@ fn all_functions_reproduce_the_model() {
     let mut random = Random::new(1);
     for spec in ["arm3_exact", "puma560_exact"] {
         let case = Case::of(spec);
-        let (lagrangian, limits) = (&case.lagrangian, joint_box(&case.arm));
+        let (lagrangian, limits) = (&case.lagrangian, case.arm.joint_box());
         let measure = case.measure(&Domain::Workspace(limits.clone()));
         let p = lagrangian.functions.len();
         assert_eq!(

@@ -1,7 +1,8 @@
 //! Points of a domain where residuals are largest.
 
-use crate::measure::{Domain, Measure, Spread};
+use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
+use crate::spread::{Spread, corner, in_box};
 
 /// Intervals of the desired motion.
 const INTERVALS: u32 = 200;
@@ -22,22 +23,17 @@ pub fn extremes(measure: &Measure, domain: &Domain, motion: Option<&Motion>) -> 
                 // The ends of a motion are extremes of the path itself: all corners there.
                 let (first, stride) =
                     if k == 0 || k == INTERVALS { (0, 1) } else { (k as usize % stride, stride) };
-                for corner in (first..1 << errors.len()).step_by(stride) {
-                    let side = |i: usize| if (corner >> i) & 1 == 1 { 1.0 } else { -1.0 };
-                    points.push((0..q.len()).map(|i| q[i] + side(i) * errors[i]).collect());
-                }
+                let sides: Vec<[f64; 2]> = q.iter().zip(errors).map(|(q, e)| [q - e, q + e]).collect();
+                let corners = (first..1 << errors.len()).step_by(stride);
+                points.extend(corners.map(|index| in_box(&sides, &corner(index, errors.len()))));
             }
         }
         (Domain::Workspace(limits), _) => {
             let spread = Spread::new(limits.len());
-            let at = |unit: &[f64]| -> Vec<f64> {
-                limits.iter().zip(unit).map(|([low, high], u)| low + (high - low) * u).collect()
-            };
             // The measure has the sequence's first points.
-            points.extend((0..WORKSPACE_POINTS).map(|i| at(&spread.point(measure.points.len() + i))));
-            points.extend((0..1_usize << limits.len()).map(|corner| {
-                at(&(0..limits.len()).map(|i| ((corner >> i) & 1) as f64).collect::<Vec<_>>())
-            }));
+            let inner = (0..WORKSPACE_POINTS).map(|i| spread.point(measure.points.len() + i));
+            let corners = (0..1 << limits.len()).map(|index| corner(index, limits.len()));
+            points.extend(inner.chain(corners).map(|unit| in_box(limits, &unit)));
         }
         _ => {}
     }

@@ -3,7 +3,7 @@
 use super::super::basis::Basis;
 use super::super::samples::dot;
 use super::{Fit, fit, residuals, spanning_points};
-use crate::measure::Spread;
+use crate::spread::Spread;
 
 /// Points of an arc |θ| ≤ `half`.
 fn arc(half: f64) -> Vec<f64> {
