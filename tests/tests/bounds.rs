@@ -21,7 +21,17 @@ fn an_exact_model_has_zero_bounds() {
 
 #[test]
 fn no_bound_is_below_what_the_measure_has_seen() {
-    for spec in ["arm3_xi1", "arm3_xi2", "arm3_xi3", "arm3_waypoints", "arm3_sinusoids", "puma560_xi12"] {
+    for spec in [
+        "arm3_xi1",
+        "arm3_xi2",
+        "arm3_xi3",
+        "arm3_waypoints",
+        "arm3_sinusoids",
+        "puma560_xi6",
+        "puma560_xi12",
+        "ur5",
+        "stanford",
+    ] {
         let made = generation(spec);
         let (lagrangian, reduced) = (&made.lagrangian, &made.reduced);
         let deltas = sampled(lagrangian, reduced, &made.domain, made.motion.as_ref());

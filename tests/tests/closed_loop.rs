@@ -62,8 +62,8 @@ fn falls(name: &str, run: &Run, level: f64) {
 #[test]
 fn v_falls_down_to_the_ripple_of_the_held_torque() {
     let Comparison { exact, law, .. } = run(&generation("arm3_xi2"));
-    falls("exact (16)", &exact, 1e-4);
-    falls("two functions (34)", &law, 1e-2);
+    falls("exact (16)", &exact, 1e-6);
+    falls("two functions (34)", &law, 2e-3);
 }
 
 #[test]
