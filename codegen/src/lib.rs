@@ -1,4 +1,30 @@
-//! Gramforge: an offline generator of certified reduced robot dynamics.
+//! Gramforge: an offline generator of reduced robot dynamics and tracking controllers.
+//!
+//! A specification names an arm, a motion or a workspace, a form of model and a tracking law; out comes a flat,
+//! allocation-free `no_std` module that implements `gramforge_runtime::Model`. [`Config`] does it from a build
+//! script, [`Generation`] stage by stage:
+//!
+//! 1. [`load`] reads the JSON file against its schema: [`spec::Spec`].
+//! 2. [`mod@arm`] turns its DH table or URDF into joints in one normal form: [`arm::Arm`].
+//! 3. [`mod@check`] judges every other value of the specification.
+//! 4. [`lagrangian`] expands D, h and G of equation (1) over cos(κ·q) and sin(κ·q), sampled by [`dynamics`]:
+//!    [`lagrangian::Lagrangian`].
+//! 5. [`motion`] and [`measure`] say where the model must be good, as weighted points: [`measure::Measure`].
+//! 6. [`reduction`] keeps ξ functions by weighted Gram–Schmidt (2)–(8): [`reduction::Reduced`].
+//! 7. [`bounds`] says how much was left out: [`bounds::Bounds`].
+//! 8. [`mod@design`] makes the numbers of the tracking law (16) or (34) from gains and bounds: [`design::Design`].
+//! 9. [`body`] writes the passivity torque D̂ a_r + Ĉ v_r + Ĝ as an expression [`graph`]: [`graph::Graph`].
+//! 10. [`mod@emit`] prints graph and constants as Rust.
+//!
+//! Beside the line stand [`mod@simulate`], which closes the loop with the very laws of the runtime, [`report`], which
+//! shows what came out, [`output`], the only place that writes files, and [`cli`].
+//!
+//! Every stage is a function from values to a value and knows none after it. The same specification gives the same
+//! bytes on every machine: sums have a fixed order, sines come from `libm`, and no hash map is ever iterated.
+//!
+//! Equation numbers are those of A. P. Bartoszewicz, "Robust Robot Control Based on Simplified Dynamic Model",
+//! TR-EE 92-21, Purdue University, 1992.
+
 pub mod arm;
 pub mod body;
 pub mod bounds;
@@ -20,6 +46,7 @@ pub mod reduction;
 pub mod report;
 pub mod simulate;
 pub mod spec;
+mod spread;
 
 pub use config::{Config, Output};
 pub use error::Error;

@@ -1,7 +1,8 @@
 //! Where the reduction is judged: trajectory, tube or workspace, as weighted points.
 
-use crate::arm::{Arm, JointKind};
+use crate::arm::Arm;
 use crate::motion::Motion;
+use crate::spread::{Spread, in_box};
 
 /// Intervals of the desired motion; even, for Simpson's rule.
 const INTERVALS: u32 = 200;
@@ -85,10 +86,7 @@ impl Measure {
     fn workspace(limits: &[[f64; 2]], arm: &Arm) -> Self {
         let n = limits.len();
         let spread = Spread::new(n);
-        let point = |index| {
-            let unit = spread.point(index);
-            limits.iter().zip(&unit).map(|([low, high], u)| low + (high - low) * u).collect()
-        };
+        let point = |index| in_box(limits, &spread.point(index));
         let most = |limit: fn(&crate::arm::Limits) -> Option<f64>| -> Vec<f64> {
             arm.joints.iter().map(|joint| limit(&joint.limits).unwrap_or(1.0)).collect()
         };
@@ -105,48 +103,5 @@ impl Measure {
             acceleration_square: acceleration.iter().map(|a| a * a / 3.0).collect(),
             velocity_square: (0..n).map(|j| (0..n).map(|k| product(j, k)).collect()).collect(),
         }
-    }
-}
-
-/// The joint box of an arm: its position limits, a full turn for an unlimited revolute joint, ±1 m for a
-/// prismatic one.
-pub fn joint_box(arm: &Arm) -> Vec<[f64; 2]> {
-    let unlimited = |kind| match kind {
-        JointKind::Revolute => [-std::f64::consts::PI, std::f64::consts::PI],
-        JointKind::Prismatic => [-1.0, 1.0],
-    };
-    arm.joints.iter().map(|joint| joint.limits.position.unwrap_or(unlimited(joint.kind))).collect()
-}
-
-/// A sequence that fills the unit cube evenly: multiples of the powers of the root of x^(n+1) = x + 1
-/// (Roberts 2018), modulo 1.
-pub struct Spread {
-    step: Vec<f64>,
-}
-
-impl Spread {
-    /// The sequence in `n` dimensions.
-    pub fn new(n: usize) -> Self {
-        let mut root = 2.0_f64;
-        for _ in 0..64 {
-            let mut power = 1.0;
-            for _ in 0..n {
-                power *= root;
-            }
-            // Newton on x·x^n − x − 1.
-            root -= (power * root - root - 1.0) / ((n as f64 + 1.0) * power - 1.0);
-        }
-        let mut step = Vec::with_capacity(n);
-        let mut power = 1.0;
-        for _ in 0..n {
-            power /= root;
-            step.push(power);
-        }
-        Self { step }
-    }
-
-    /// Point number `index`, each coordinate in [0, 1).
-    pub fn point(&self, index: usize) -> Vec<f64> {
-        self.step.iter().map(|step| (0.5 + step * (index as f64 + 1.0)).fract()).collect()
     }
 }

@@ -13,7 +13,7 @@ use crate::error::{Error, Faults};
 use crate::graph::Graph;
 use crate::lagrangian::{Lagrangian, expand};
 use crate::load::{Loaded, load, spec_hash};
-use crate::measure::{Domain, Measure, joint_box};
+use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::reduction::{self, Reduced};
 use crate::spec::{MeasureSpec, ModelSpec, Spec};
@@ -178,7 +178,7 @@ fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Faults) {
 
 fn domain(spec: &Spec, arm: &Arm) -> Result<Domain, Error> {
     Ok(match (&spec.measure, &spec.motion) {
-        (Some(MeasureSpec::Workspace), _) | (None, None) => Domain::Workspace(joint_box(arm)),
+        (Some(MeasureSpec::Workspace), _) | (None, None) => Domain::Workspace(arm.joint_box()),
         (Some(MeasureSpec::Trajectory), _) => Domain::Trajectory,
         (Some(MeasureSpec::Tube { position_error }), _) => {
             Domain::Tube(checked("measure.tube.position_error", vector(position_error, arm.dof()))?)

@@ -70,8 +70,8 @@ impl ::gramforge_runtime::Model<3> for Arm3Xi1 {
         let d11 = 2.8366774184154715 * cos_q2;
         let d22 = 3.4370946559981 * cos_q2;
         let d23 = 1.3248018635702024 * cos_q2;
-        let minus_h211 = 0.14188685223953648 * cos_q2;
-        let minus_h311 = 1.3141635914567749 * cos_q2;
+        let h211 = -0.14188685223953648 * cos_q2;
+        let h311 = -1.3141635914567749 * cos_q2;
         let h322 = 0.9000000000000001 * sin_q3;
         let g2 = 46.29682556300225 * cos_q2;
         let g3 = 17.658 * cos_q2_q3;
@@ -81,11 +81,11 @@ impl ::gramforge_runtime::Model<3> for Arm3Xi1 {
         let v23 = qd[1] * v_r[2] + v_r[1] * qd[2];
         let v33 = v_r[2] * qd[2];
         let v22 = v_r[1] * qd[1];
-        let tau1 = d11 * a_r[0] + minus_h211 * v12 + minus_h311 * v13;
-        let tau2 = d22 * a_r[1] + d23 * a_r[2] - minus_h211 * v11 - h322 * v23
-            - h322 * v33 + g2;
-        let tau3 = d23 * a_r[1] + 1.0200563000000002 * a_r[2] - minus_h311 * v11
-            + h322 * v22 + g3;
+        let tau1 = d11 * a_r[0] - h211 * v12 - h311 * v13;
+        let tau2 = d22 * a_r[1] + d23 * a_r[2] + h211 * v11 - h322 * v23 - h322 * v33
+            + g2;
+        let tau3 = d23 * a_r[1] + 1.0200563000000002 * a_r[2] + h311 * v11 + h322 * v22
+            + g3;
         [tau1, tau2, tau3]
     }
     fn viscous_friction(&self) -> [f64; 3] {

@@ -69,7 +69,7 @@ impl ::gramforge_runtime::Model<3> for Arm3Xi2 {
         let d22 = 2.6451713000000003 + 1.8000000000000003 * cos_q3;
         let d23 = 1.0200563000000002 + 0.9000000000000002 * cos_q3;
         let h211 = 1.06937764700188 * sin_2q2 - 1.1946258693195744 * cos_q2;
-        let minus_h311 = 0.9677448506122301 * cos_q2 + 0.35189391857937435 * sin_2q2;
+        let h311 = -0.9677448506122301 * cos_q2 - 0.35189391857937435 * sin_2q2;
         let h322 = 0.9000000000000001 * sin_q3;
         let g2 = 33.10875000000001 * cos_q2 + 17.657999999999998 * cos_q2_q3;
         let g3 = 17.658 * cos_q2_q3;
@@ -79,11 +79,11 @@ impl ::gramforge_runtime::Model<3> for Arm3Xi2 {
         let v23 = qd[1] * v_r[2] + v_r[1] * qd[2];
         let v33 = v_r[2] * qd[2];
         let v22 = v_r[1] * qd[1];
-        let tau1 = d11 * a_r[0] - h211 * v12 + minus_h311 * v13;
+        let tau1 = d11 * a_r[0] - h211 * v12 - h311 * v13;
         let tau2 = d22 * a_r[1] + d23 * a_r[2] + h211 * v11 - h322 * v23 - h322 * v33
             + g2;
-        let tau3 = d23 * a_r[1] + 1.0200563000000002 * a_r[2] - minus_h311 * v11
-            + h322 * v22 + g3;
+        let tau3 = d23 * a_r[1] + 1.0200563000000002 * a_r[2] + h311 * v11 + h322 * v22
+            + g3;
         [tau1, tau2, tau3]
     }
     fn viscous_friction(&self) -> [f64; 3] {

@@ -2,17 +2,15 @@
 
 use nalgebra::DMatrix;
 
-use super::{Arm, JointKind};
+use super::Arm;
 use crate::error::Faults;
+use crate::spread::{Spread, corner, in_box};
 
 /// Samples inside the box, beside its corners.
 const SAMPLES: usize = 512;
 
 /// λ_min(D) must exceed this part of the largest diagonal entry.
 const LEAST: f64 = 1e-9;
-
-/// Bases of the Halton sequence, one for each joint.
-const PRIMES: [u32; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
 
 /// A state in which D(q) is not safely positive definite.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,23 +42,12 @@ impl Indefinite {
 ///
 /// Where limits are unknown the box is [−π, π] rad or [−1, 1] m. A sample, not a proof.
 pub fn indefinite(arm: &Arm, mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>) -> Option<Indefinite> {
-    let box_of = |j: &super::Joint| {
-        j.limits.position.unwrap_or(match j.kind {
-            JointKind::Revolute => [-std::f64::consts::PI, std::f64::consts::PI],
-            JointKind::Prismatic => [-1.0, 1.0],
-        })
-    };
-    let ranges: Vec<[f64; 2]> = arm.joints.iter().map(box_of).collect();
-    let corners = 1_usize << ranges.len().min(PRIMES.len());
-    let corner = |index: usize| {
-        let pick = |(i, range): (usize, &[f64; 2])| if index >> i & 1 == 0 { range[0] } else { range[1] };
-        ranges.iter().enumerate().map(pick).collect::<Vec<f64>>()
-    };
-    let inside = |index: usize| {
-        let pick = |([low, high], base): (&[f64; 2], &u32)| low + (high - low) * halton(index, *base);
-        ranges.iter().zip(&PRIMES).map(pick).collect::<Vec<f64>>()
-    };
-    (1..=SAMPLES).map(inside).chain((0..corners).map(corner)).find_map(|q| judge(&mass_matrix(&q), q))
+    let limits = arm.joint_box();
+    let n = limits.len();
+    let spread = Spread::new(n);
+    let units =
+        (0..SAMPLES).map(|index| spread.point(index)).chain((0..1 << n).map(|index| corner(index, n)));
+    units.map(|unit| in_box(&limits, &unit)).find_map(|q| judge(&mass_matrix(&q), q))
 }
 
 /// The first of `positions` at which `mass_matrix` fails as in [`indefinite`].
@@ -69,17 +56,6 @@ pub fn indefinite_among<'a>(
     mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>,
 ) -> Option<Indefinite> {
     positions.into_iter().find_map(|q| judge(&mass_matrix(q), q.clone()))
-}
-
-/// Point `index` ≥ 1 of van der Corput's sequence in `base`, in (0, 1).
-fn halton(mut index: usize, base: u32) -> f64 {
-    let (mut out, mut digit) = (0.0, 1.0);
-    while index > 0 {
-        digit /= f64::from(base);
-        out += digit * (index % base as usize) as f64;
-        index /= base as usize;
-    }
-    out
 }
 
 fn judge(d: &[Vec<f64>], q: Vec<f64>) -> Option<Indefinite> {
@@ -98,7 +74,7 @@ fn judge(d: &[Vec<f64>], q: Vec<f64>) -> Option<Indefinite> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Arm, Body, Joint, Limits, Transform};
+    use super::super::{Body, Joint, JointKind, Limits, Transform};
     use super::*;
 
     fn arm() -> Arm {

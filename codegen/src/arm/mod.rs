@@ -140,6 +140,15 @@ impl Arm {
     pub fn dof(&self) -> usize {
         self.joints.len()
     }
+
+    /// The joint box: position limits by joint, a full turn for an unlimited revolute joint, ±1 m for a prismatic one.
+    pub fn joint_box(&self) -> Vec<[f64; 2]> {
+        let unlimited = |kind| match kind {
+            JointKind::Revolute => [-std::f64::consts::PI, std::f64::consts::PI],
+            JointKind::Prismatic => [-1.0, 1.0],
+        };
+        self.joints.iter().map(|joint| joint.limits.position.unwrap_or(unlimited(joint.kind))).collect()
+    }
 }
 
 /// Acceleration of gravity where the specification is silent, m/s².

@@ -64,14 +64,15 @@ fn alpha<'g>(
     terms: &[(usize, f64)],
     psi: &BTreeMap<usize, Expr<'g>>,
 ) -> Option<Expr<'g>> {
-    let term = |&(l, k): &(usize, f64)| psi.get(&l).map(|&psi| builder.constant(k) * psi);
-    let sum = terms.iter().filter_map(term).reduce(|sum, term| sum + term)?;
-    if let Some(positive) = sum.negated() {
-        positive.named(&format!("minus_{name}"), true);
-    } else if !sum.is_constant() {
-        sum.named(name, true);
-    }
-    Some(sum)
+    // Where every k_l is negative the first keeps its sign as part of the literal: negating the sum would cost an
+    // operation, and negating the name would make it depend on the reduction.
+    let negative = terms.iter().all(|&(_, k)| k < 0.0);
+    let term = |(number, &(l, k)): (usize, &(usize, f64))| {
+        let psi = *psi.get(&l)?;
+        Some(if negative && number == 0 { psi.scaled(k) } else { builder.constant(k) * psi })
+    };
+    let sum = terms.iter().enumerate().filter_map(term).reduce(|sum, term| sum + term)?;
+    Some(if sum.is_constant() { sum } else { sum.named(name, true) })
 }
 
 /// The sign goes to the product and not to the coefficient: sums absorb it there.

@@ -3,6 +3,8 @@
 mod expanded;
 mod harmonics;
 mod recursive;
+#[cfg(test)]
+mod tests;
 
 pub use expanded::expanded;
 pub use recursive::recursive;

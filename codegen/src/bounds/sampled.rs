@@ -3,9 +3,10 @@
 use rayon::prelude::*;
 
 use crate::lagrangian::{Combination, Lagrangian, evaluate};
-use crate::measure::{Domain, Spread};
+use crate::measure::Domain;
 use crate::motion::Motion;
 use crate::reduction::Reduced;
+use crate::spread::{Spread, corner, in_box};
 
 /// Instants of the motion.
 const INSTANTS: u32 = 400;
@@ -56,9 +57,8 @@ fn points(domain: &Domain, motion: Option<&Motion>) -> Vec<Vec<f64>> {
             let corners = 1_usize << errors.len();
             // All corners of a small arm's box, a changing quarter of a large one's.
             let stride = if corners > 16 { corners / 16 } else { 1 };
-            for corner in (k as usize % stride..corners).step_by(stride) {
-                let unit: Vec<f64> = (0..errors.len()).map(|i| ((corner >> i) & 1) as f64).collect();
-                points.push(moved(&unit));
+            for index in (k as usize % stride..corners).step_by(stride) {
+                points.push(moved(&corner(index, errors.len())));
             }
             points.extend((0..ERRORS).map(|c| moved(&spread.point(k as usize * ERRORS + c))));
         }
@@ -68,10 +68,8 @@ fn points(domain: &Domain, motion: Option<&Motion>) -> Vec<Vec<f64>> {
 }
 
 fn workspace(limits: &[[f64; 2]]) -> Vec<Vec<f64>> {
-    let spread = Spread::new(limits.len());
-    let corners = 1_usize << limits.len();
-    let at = |unit: &[f64]| limits.iter().zip(unit).map(|([low, high], u)| low + (high - low) * u).collect();
-    let corner = |c: usize| (0..limits.len()).map(|i| ((c >> i) & 1) as f64).collect::<Vec<_>>();
-    let inner = (0..WORKSPACE_POINTS).map(|index| at(&spread.point(index)));
-    inner.chain((0..corners).map(|c| at(&corner(c)))).collect()
+    let n = limits.len();
+    let spread = Spread::new(n);
+    let inner = (0..WORKSPACE_POINTS).map(|index| spread.point(index));
+    inner.chain((0..1 << n).map(|index| corner(index, n))).map(|unit| in_box(limits, &unit)).collect()
 }

@@ -31,6 +31,8 @@ enum Command {
     Evaluate(evaluate::Evaluate),
     Generate(generate::Generate),
     Simulate(simulate::Simulate),
+    /// Prints the JSON Schema of specification files.
+    Schema,
 }
 
 /// Runs the command that the process arguments name.
@@ -41,6 +43,7 @@ pub fn run() -> ExitCode {
         Some(Command::Evaluate(command)) => command.run(),
         Some(Command::Generate(command)) => command.run(),
         Some(Command::Simulate(command)) => command.run(),
+        Some(Command::Schema) => json(&crate::load::schema()),
     };
     match outcome {
         Ok(text) => {

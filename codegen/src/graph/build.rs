@@ -113,6 +113,15 @@ impl<'g> Expr<'g> {
         self
     }
 
+    /// k·x with the sign of `k` left in the constant, where `k * x` would take it out to share |k|·x.
+    pub fn scaled(self, k: f64) -> Self {
+        if self.is_constant() || k == 0.0 || k.abs() == 1.0 {
+            return self * self.constant(k);
+        }
+        let (a, b) = ordered(self.constant(k).id, self.id);
+        self.make(Node::Mul(a, b))
+    }
+
     /// True for a constant.
     pub fn is_constant(self) -> bool {
         self.value().is_some()
@@ -130,7 +139,7 @@ impl<'g> Expr<'g> {
     }
 
     /// The operand of a negation.
-    pub fn negated(self) -> Option<Self> {
+    fn negated(self) -> Option<Self> {
         match self.node() {
             Node::Neg(id) => Some(Expr { id, ..self }),
             _ => None,

@@ -4,6 +4,8 @@ mod build;
 mod count;
 mod interpret;
 mod node;
+#[cfg(test)]
+mod tests;
 
 pub use build::{Builder, Expr};
 pub use count::Operations;

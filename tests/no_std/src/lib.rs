@@ -1,0 +1,24 @@
+//! The generated controllers in a program without std and without an allocator.
+//!
+//! std brings a panic handler; with the one below there would be two, and this would not compile. A crate that uses
+//! `alloc` would not link for want of a global allocator.
+#![no_std]
+
+use core::panic::PanicInfo;
+
+use gramforge_generated::puma560_xi12 as puma;
+use gramforge_runtime::reference::Reference;
+
+#[panic_handler]
+fn halt(_: &PanicInfo) -> ! {
+    loop {}
+}
+
+/// One step of the control loop; zeros where the generated numbers were edited into impossible ones.
+pub fn step(q: &[f64; 6], qd: &[f64; 6], t: f64) -> [f64; 6] {
+    let Ok(mut controller) = puma::controller() else { return [0.0; 6] };
+    match controller.step(q, qd, &puma::REFERENCE.at(t)) {
+        Ok(command) => command.torque,
+        Err(fault) => fault.command,
+    }
+}
