@@ -16,7 +16,7 @@ use crate::load::{Loaded, load, spec_hash};
 use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::reduction::{self, Reduced};
-use crate::spec::{MeasureSpec, ModelSpec, Spec};
+use crate::spec::{MeasureSpec, ModelSpec, RefitSpec, Spec};
 
 /// Half-width of the tube where the specification names no measure, rad or m.
 const DEFAULT_TUBE: f64 = 0.05;
@@ -98,6 +98,14 @@ impl Generation {
         let reduced = match spec.model {
             ModelSpec::Exact => reduction::exact(&lagrangian),
             ModelSpec::Shared { functions } => reduction::shared(&lagrangian, &measure, functions),
+        };
+        let reduced = match spec.refit {
+            RefitSpec::Minimax => reduction::minimax(
+                &lagrangian,
+                reduced,
+                &reduction::extremes(&measure, &domain, motion.as_ref()),
+            ),
+            RefitSpec::LeastSquares => reduced,
         };
         let bounds = Bounds::new(&lagrangian, &sampled(&lagrangian, &reduced, &domain, motion.as_ref()));
         if !(reduced.is_finite() && bounds.is_finite()) {

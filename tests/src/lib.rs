@@ -1,1 +1,58 @@
-//! Integration tests of Gramforge live in `tests/`.
+//! What the integration tests in `tests/` share: arms, reference values, random states.
+
+pub mod random;
+pub mod truth;
+
+use std::path::{Path, PathBuf};
+
+use gramforge::Generation;
+use gramforge::arm::Arm;
+use gramforge::check::prepare;
+use gramforge::error::Faults;
+use gramforge::motion::Motion;
+
+/// The specification file of `name`, from `data/` or else from the committed ones.
+pub fn spec(name: &str) -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let own = here.join("data").join(format!("{name}.json"));
+    if own.exists() { own } else { here.join("../generated/specs").join(format!("{name}.json")) }
+}
+
+/// The arm of specification `name`.
+pub fn arm(name: &str) -> Arm {
+    prepare(&spec(name)).unwrap_or_else(|error| panic!("{error}")).built.arm
+}
+
+/// The motion of specification `name`.
+pub fn motion(name: &str) -> Motion {
+    let checked = prepare(&spec(name)).unwrap_or_else(|error| panic!("{error}"));
+    let mut faults = Faults::of(&checked.loaded.path);
+    let spec = checked.loaded.spec.motion.as_ref().expect("the specification has a motion");
+    Motion::from_spec(spec, checked.built.arm.dof(), &mut faults).expect("a motion without faults")
+}
+
+/// All stages for specification `name`.
+pub fn generation(name: &str) -> Generation {
+    Generation::from_file(&spec(name)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// `values` as an array.
+pub fn array<const N: usize>(values: &[f64]) -> [f64; N] {
+    values.try_into().expect("one entry a joint")
+}
+
+/// Largest |x|.
+pub fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
+    values.into_iter().fold(0.0, |most, x| most.max(x.abs()))
+}
+
+/// Largest |a − b| over two sequences of the same length.
+pub fn difference<'a>(a: impl IntoIterator<Item = &'a f64>, b: impl IntoIterator<Item = &'a f64>) -> f64 {
+    let (a, b): (Vec<&f64>, Vec<&f64>) = (a.into_iter().collect(), b.into_iter().collect());
+    assert_eq!(a.len(), b.len());
+    a.iter().zip(b).fold(0.0, |most: f64, (a, b)| {
+        let apart = (*a - b).abs();
+        // max() would drop a NaN.
+        if apart.is_nan() { f64::INFINITY } else { most.max(apart) }
+    })
+}

@@ -218,7 +218,7 @@ fn the_hash_sees_what_is_said_and_not_how() {
         }
     }
     let mut value = arm3();
-    value["refit"] = json!("least_squares");
+    value["refit"] = json!("minimax");
     value["control"]["W"] = json!(40);
     assert_eq!(hash(&reversed(&value)), plain);
     value["control"]["W"] = json!(40.5);

@@ -1,12 +1,19 @@
 //! The reduction: which ψ functions a model keeps, and with which parameters.
 
+mod basis;
+mod chebyshev;
 mod exact;
+mod extremes;
 mod gram_schmidt;
+mod lu;
+mod minimax;
 mod samples;
 mod shared;
 
 pub use exact::exact;
+pub use extremes::extremes;
 pub use gram_schmidt::{GramSchmidt, Pick};
+pub use minimax::minimax;
 pub use samples::Samples;
 pub use shared::shared;
 
