@@ -5,13 +5,46 @@ mod measure;
 mod motion;
 mod shape;
 
+use std::path::Path;
+
 use crate::arm::{Arm, Built, MOST_JOINTS};
-use crate::error::Faults;
-use crate::load::Loaded;
+use crate::error::{Error, Faults};
+use crate::load::{Loaded, load};
 use crate::motion::Motion;
 use crate::spec::{ModelSpec, Spec};
 
 pub use shape::{matrix, vector};
+
+/// A specification that passed every check that needs no dynamics.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checked {
+    /// The specification and its files.
+    pub loaded: Loaded,
+    /// Its arm and the warnings about it.
+    pub built: Built,
+    /// Its motion.
+    pub motion: Option<Motion>,
+}
+
+/// Reads and checks the specification at `path`.
+///
+/// # Errors
+/// Those of [`load`]; else [`Error::Input`] with every fault that [`examine`] finds.
+pub fn prepare(path: &Path) -> Result<Checked, Error> {
+    from_loaded(load(path)?)
+}
+
+/// The same from a specification that is read already.
+///
+/// # Errors
+/// [`Error::Input`] with every fault that [`examine`] finds.
+pub fn from_loaded(loaded: Loaded) -> Result<Checked, Error> {
+    let mut faults = Faults::of(&loaded.path);
+    match examine(&loaded, &mut faults) {
+        (Some(built), motion) => faults.finish(Checked { loaded, built, motion }),
+        (None, _) => Err(faults.into_error()),
+    }
+}
 
 /// Builds arm and motion of a specification and checks all values that need no dynamics.
 ///

@@ -4,16 +4,9 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::{examine, matrix, vector};
-use crate::error::{Error, Faults};
-use crate::load::{Loaded, load, parse};
+use super::{from_loaded, matrix, prepare, vector};
+use crate::load::parse;
 use crate::spec::{MatrixSpec, VectorSpec};
-
-fn judged(loaded: &Loaded) -> Result<(), Error> {
-    let mut faults = Faults::of(&loaded.path);
-    examine(loaded, &mut faults);
-    faults.finish(())
-}
 
 /// The faults of arm3.json after `edit` are as many as `lines`, each by its beginning.
 fn expect(edit: impl Fn(&mut Value), lines: &[&str]) {
@@ -21,8 +14,8 @@ fn expect(edit: impl Fn(&mut Value), lines: &[&str]) {
         serde_json::from_str(include_str!("../../../generated/specs/arm3_xi2.json")).expect("JSON");
     edit(&mut value);
     let loaded = parse(&value.to_string(), Path::new("a.json")).unwrap_or_else(|e| panic!("{e}"));
-    let message = match judged(&loaded) {
-        Ok(()) => String::new(),
+    let message = match from_loaded(loaded) {
+        Ok(_) => String::new(),
         Err(error) => {
             assert_eq!(error.exit_code(), 2);
             error.to_string()
@@ -47,8 +40,7 @@ fn the_samples_are_sound() {
         "tests/data/ur5",
         "tests/data/panda",
     ] {
-        let loaded = load(&root.join(format!("{file}.json")));
-        loaded.and_then(|loaded| judged(&loaded)).unwrap_or_else(|e| panic!("{e}"));
+        prepare(&root.join(format!("{file}.json"))).unwrap_or_else(|e| panic!("{e}"));
     }
 }
 
@@ -129,7 +121,7 @@ fn measures_have_what_they_need() {
     expect(
         |v| {
             v["measure"] = json!("workspace");
-            v["arm"]["dh"]["links"][0]["limits"] = json!({ "position": [-1.0, 1.0], "velocity": 1.0 });
+            v["arm"]["dh"]["links"][0]["limits"] = json!({ "position": [-1.0, 2.0], "velocity": 1.0 });
         },
         &[
             "measure: is \"workspace\", but of the joint limits joint1 lacks acceleration, joint2 lacks position \
