@@ -325,8 +325,8 @@ pub enum ModelSpec {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RefitSpec {
-    /// Least largest residual, because the bounds (9) and (10) are maxima: the best of a linear programme over the points
-    /// of the measure and the corners of its boxes. Never worse there than `least_squares`.
+    /// Least largest residual, because the bounds (9) and (10) are maxima: the optimum of a linear programme over points of
+    /// the domain and of its boundary, and never worse there than `least_squares`.
     #[default]
     Minimax,
     /// Least squares over the measure, equation (4).

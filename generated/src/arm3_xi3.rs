@@ -39,7 +39,7 @@ pub const VISCOUS_FRICTION: [f64; 3] = [0.0, 0.0, 0.0];
 
 /// ΔD, Δh, ΔB and ΔG over the domain above: sampled, not certified.
 pub const BOUNDS: ::gramforge_runtime::Bounds<f64, 3> = ::gramforge_runtime::Bounds {
-    d: [[0.32717796071204464, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
+    d: [[0.3275762027276865, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
     h: [
         [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
         [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
@@ -68,8 +68,8 @@ impl ::gramforge_runtime::Model<3> for Arm3Xi3 {
         let cos_2q3 = cos_q3 * cos_q3 - sin_q3 * sin_q3;
         let sin_2q2_2q3 = sin_2q2 * cos_2q3 + cos_2q2 * sin_2q3;
         let cos_2q2_2q3 = cos_2q2 * cos_2q3 - sin_2q2 * sin_2q3;
-        let d11 = 3.032083994011473 * cos_q2 + 0.04689788365593346 * sin_2q2
-            + 0.8341119583990664 * cos_2q2_2q3;
+        let d11 = 3.0417882488618733 * cos_q2 + 0.03716601904188899 * sin_2q2
+            + 0.8312344388598879 * cos_2q2_2q3;
         let d22 = 2.6451713000000003 + 1.8000000000000003 * cos_q3;
         let d23 = 1.0200563000000002 + 0.9000000000000002 * cos_q3;
         let t1 = 0.5099718500000001 * sin_2q2_2q3;
