@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::arm::{Arm, indefinite};
 use crate::body::{self, Form};
-use crate::bounds::{Bounds, sampled};
+use crate::bounds::{Bounds, Certificate, Effort, certified};
 use crate::check::{Checked, from_loaded, vector};
 use crate::design::{Design, Gains, checked, design, envelope};
 use crate::dynamics::mass_matrix;
@@ -41,7 +41,9 @@ pub struct Generation {
     pub lagrangian: Lagrangian,
     /// The emitted model.
     pub reduced: Reduced,
-    /// What it leaves out over the domain.
+    /// A certificate for each coefficient of [`Generation::lagrangian`].
+    pub certificates: Vec<Certificate>,
+    /// What the model leaves out over the domain at most.
     pub bounds: Bounds,
     /// The controller.
     pub design: Option<Design>,
@@ -67,6 +69,14 @@ impl Generation {
     /// # Errors
     /// As [`Generation::from_file`].
     pub fn new(loaded: Loaded) -> Result<Self, Error> {
+        Self::with_effort(loaded, &Effort::default())
+    }
+
+    /// Runs every stage, with that much work for each bound.
+    ///
+    /// # Errors
+    /// As [`Generation::from_file`].
+    pub fn with_effort(loaded: Loaded, effort: &Effort) -> Result<Self, Error> {
         let Checked { loaded, built } = from_loaded(loaded)?;
         let arm = built.arm;
         let spec = &loaded.spec;
@@ -89,7 +99,9 @@ impl Generation {
             ModelSpec::Exact => reduction::exact(&lagrangian),
             ModelSpec::Shared { functions } => reduction::shared(&lagrangian, &measure, functions),
         };
-        let bounds = Bounds::new(&lagrangian, &sampled(&lagrangian, &reduced, &domain, motion.as_ref()));
+        let certificates = certified(&lagrangian, &reduced, &domain, motion.as_ref(), effort);
+        let deltas: Vec<f64> = certificates.iter().map(|certificate| certificate.bound).collect();
+        let bounds = Bounds::new(&lagrangian, &deltas);
         let (exact_form, exact_code) = body::exact(&arm, &lagrangian);
         let (form, code) = match spec.model {
             ModelSpec::Exact => (exact_form, exact_code.clone()),
@@ -112,6 +124,7 @@ impl Generation {
             domain,
             lagrangian,
             reduced,
+            certificates,
             bounds,
             design,
             form,
