@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::bounds::Effort;
 use crate::error::{Error, Faults};
+use crate::load::load;
 use crate::output::{is_current, write_if_changed};
 use crate::pipeline::Generation;
 
@@ -24,6 +26,7 @@ use crate::pipeline::Generation;
 pub struct Config {
     specs: Vec<PathBuf>,
     out_dir: Option<PathBuf>,
+    effort: Effort,
 }
 
 /// One generated module.
@@ -56,6 +59,13 @@ impl Config {
     #[must_use]
     pub fn out_dir(mut self, path: impl Into<PathBuf>) -> Self {
         self.out_dir = Some(path.into());
+        self
+    }
+
+    /// Sets how much work each bound may take. More gives smaller bounds; every bound is certified in any case.
+    #[must_use]
+    pub fn effort(mut self, effort: Effort) -> Self {
+        self.effort = effort;
         self
     }
 
@@ -93,7 +103,7 @@ impl Config {
         for spec in &self.specs {
             println!("cargo:rerun-if-changed={}", spec.display());
             // A faulty specification still names files whose mending must rerun the script.
-            if let Ok(loaded) = crate::load::load(spec) {
+            if let Ok(loaded) = load(spec) {
                 for file in loaded.files {
                     println!("cargo:rerun-if-changed={}", file.display());
                 }
@@ -118,7 +128,8 @@ impl Config {
         let mut faults = Vec::new();
         let mut outputs: Vec<Output> = Vec::new();
         for spec in &self.specs {
-            let built = Generation::from_file(spec).and_then(|generation| {
+            let generation = load(spec).and_then(|loaded| Generation::with_effort(loaded, &self.effort));
+            let built = generation.and_then(|generation| {
                 let path = out_dir.join(format!("{}.rs", generation.loaded.spec.name));
                 Ok(Output { path, text: generation.module()?, written: false, generation })
             });

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::arm::{Arm, Built, indefinite, indefinite_among};
 use crate::body::{self, Form};
-use crate::bounds::{Bounds, sampled};
+use crate::bounds::{Bounds, Certificate, Effort, certified};
 use crate::check::{examine, vector};
 use crate::design::{Design, Gains, checked, design, envelope};
 use crate::dynamics::mass_matrix;
@@ -44,7 +44,9 @@ pub struct Generation {
     pub lagrangian: Lagrangian,
     /// The emitted model.
     pub reduced: Reduced,
-    /// What it leaves out over the domain.
+    /// A certificate for each coefficient of [`Generation::lagrangian`].
+    pub certificates: Vec<Certificate>,
+    /// What the model leaves out over the domain at most.
     pub bounds: Bounds,
     /// The controller.
     pub design: Option<Design>,
@@ -70,6 +72,14 @@ impl Generation {
     /// # Errors
     /// As [`Generation::from_file`].
     pub fn new(loaded: Loaded) -> Result<Self, Error> {
+        Self::with_effort(loaded, &Effort::default())
+    }
+
+    /// Runs every stage, with that much work for each bound.
+    ///
+    /// # Errors
+    /// As [`Generation::from_file`].
+    pub fn with_effort(loaded: Loaded, effort: &Effort) -> Result<Self, Error> {
         let mut faults = Faults::of(&loaded.path);
         let (built, motion) = examine(&loaded, &mut faults);
         let Some(Built { arm, warnings }) = built else { return Err(faults.into_error()) };
@@ -107,7 +117,9 @@ impl Generation {
             ),
             RefitSpec::LeastSquares => reduced,
         };
-        let bounds = Bounds::new(&lagrangian, &sampled(&lagrangian, &reduced, &domain, motion.as_ref()));
+        let certificates = certified(&lagrangian, &reduced, &domain, motion.as_ref(), effort);
+        let deltas: Vec<f64> = certificates.iter().map(|certificate| certificate.bound).collect();
+        let bounds = Bounds::new(&lagrangian, &deltas);
         if !(reduced.is_finite() && bounds.is_finite()) {
             let mend = "write positions, speeds and the measure in SI units";
             return refused(&|faults| {
@@ -141,6 +153,7 @@ impl Generation {
             domain,
             lagrangian,
             reduced,
+            certificates,
             bounds,
             design,
             form,

@@ -41,7 +41,7 @@ pub(super) fn run() -> Result<String, Error> {
     let operations = [("exact", sign.exact_code.operations()), ("reduced", sign.code.operations())];
     let sections = [
         ("Operations of one passivity torque D a_r + C v_r + G", operations_table(&operations)),
-        ("Bounds on what the reduced model leaves out (sampled over the tube)", bounds_table(&sign.bounds)),
+        ("Bounds on what the reduced model leaves out (certified over the tube)", bounds_table(&sign.bounds)),
         ("Law (34) with the sign function against law (16)", metrics_table(&without, joints)),
         ("Law (34) with a boundary layer of 0.05 rad/s against law (16)", metrics_table(&with, joints)),
         ("The report's claims", claims_table(&claims(&without, &with))),

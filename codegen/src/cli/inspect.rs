@@ -6,6 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{json, show_warnings};
+use crate::bounds::{Bounds, Rates, estimate, peak_torque, torque_error};
 use crate::design::Envelope;
 use crate::emit::{domain_in_words, verdict};
 use crate::error::Error;
@@ -33,6 +34,11 @@ struct Inspection<'a> {
     terms: usize,
     selected: Vec<String>,
     bounds: BoundsView<'a>,
+    /// Certified bound on the torque error by joint, N·m or N, for rates up to the motion's own, over a workspace
+    /// up to the joints' limits.
+    torque_error: Option<Vec<f64>>,
+    /// Largest torque along the motion by joint, N·m or N.
+    peak_torque: Option<Vec<f64>>,
     domain: DomainView,
     form: &'static str,
     operations: Costs,
@@ -50,6 +56,19 @@ struct BoundsView<'a> {
     G: &'a [f64],
     /// ΔC of equation (30); absent without a controller.
     C: Option<&'a [Vec<f64>]>,
+    /// Largest bound/found over the simplified coefficients.
+    worst_ratio: f64,
+    /// Equation (11); absent over a workspace.
+    estimate: Option<EstimateView>,
+}
+
+/// A quick estimate of the same quantities, not certified.
+#[derive(Serialize)]
+#[allow(non_snake_case, reason = "the report's letters are the keys")]
+struct EstimateView {
+    D: Vec<Vec<f64>>,
+    H: Vec<Vec<Vec<f64>>>,
+    G: Vec<f64>,
 }
 
 #[derive(Serialize)]
@@ -101,12 +120,16 @@ fn view(generation: &Generation) -> Inspection<'_> {
         terms: lagrangian.terms(),
         selected: reduced.selected.iter().map(|&l| lagrangian.functions[l].to_string()).collect(),
         bounds: BoundsView {
-            kind: "sampled",
+            kind: "certified",
             D: &bounds.d,
             H: &bounds.h,
             G: &bounds.g,
             C: design.as_ref().map(|design| design.delta_c.as_slice()),
+            worst_ratio: generation.certificates.iter().map(|c| c.ratio()).fold(1.0, f64::max),
+            estimate: estimated(generation),
         },
+        torque_error: torque(generation),
+        peak_torque: generation.motion.as_ref().map(|motion| peak_torque(arm, motion)),
         domain: domain_view(&generation.domain),
         form: generation.form.name(),
         verdict: if reduced.selected.is_empty() {
@@ -118,6 +141,24 @@ fn view(generation: &Generation) -> Inspection<'_> {
         control,
         warnings: &generation.warnings,
     }
+}
+
+fn estimated(generation: &Generation) -> Option<EstimateView> {
+    let Generation { lagrangian, reduced, domain, motion, .. } = generation;
+    let deltas = estimate(lagrangian, reduced, domain, motion.as_ref())?;
+    let Bounds { d, h, g } = Bounds::new(lagrangian, &deltas);
+    Some(EstimateView { D: d, H: h, G: g })
+}
+
+/// Over a workspace the joints' limits are the rates, around a motion the motion's own.
+fn torque(generation: &Generation) -> Option<Vec<f64>> {
+    let Generation { arm, lagrangian, reduced, domain, motion, certificates, .. } = generation;
+    let motion = motion.as_ref();
+    let rates = match (domain, motion) {
+        (Domain::Workspace(_), _) | (_, None) => Rates::limits(arm)?,
+        (_, Some(motion)) => Rates::of(motion),
+    };
+    Some(torque_error(lagrangian, reduced, domain, motion, certificates, &rates))
 }
 
 fn domain_view(domain: &Domain) -> DomainView {
@@ -154,6 +195,11 @@ fn text(view: &Inspection, generation: &Generation) -> String {
             largest(&mut view.bounds.H.iter().flatten().flatten()),
             largest(&mut view.bounds.G.iter()),
         ));
+    }
+    if let Some(torque) = view.torque_error.as_ref().filter(|_| !view.selected.is_empty()) {
+        let list = |x: &[f64]| x.iter().map(|x| format!("{x:.4}")).collect::<Vec<_>>().join(", ");
+        let peak = view.peak_torque.as_ref().map_or(String::new(), |peak| format!(" of {}", list(peak)));
+        lines.push(format!("torque error (certified) <= {}{peak}", list(torque)));
     }
     if let Some(control) = &view.control {
         lines.push(format!("control: k* = {:.4}, V_max(0) = {:.4} J", control.k_star, control.v_max));

@@ -42,7 +42,7 @@ pub(super) fn model(module: &Module) -> Vec<String> {
         lines.push(format!(" The exact model costs {}: {}", cost(&exact), verdict(&operations, &exact)));
         lines.push(String::new());
         lines.push(format!(
-            " Domain of the bounds: {}. They are sampled, not certified.",
+            " Domain of the bounds: {}. They are certified, rounding in f64 included.",
             domain(module.domain)
         ));
     } else {

@@ -37,7 +37,7 @@ pub struct Module<'a> {
     pub reduced: &'a Reduced,
     /// What it leaves out.
     pub bounds: &'a Bounds,
-    /// Where the bounds were looked for.
+    /// Where the bounds hold.
     pub domain: &'a Domain,
     /// How the torque is computed.
     pub form: Form,

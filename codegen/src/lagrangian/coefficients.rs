@@ -58,8 +58,10 @@ impl fmt::Display for Entry {
     }
 }
 
-/// Gathers the entries into distinct coefficients and numbers the functions that remain.
-pub(super) fn distinct(dof: usize, entries: Vec<(Entry, Expansion)>) -> Lagrangian {
+/// Gathers the entries into distinct coefficients and numbers the functions that remain. `truncation` is what the
+/// entries lack already; what twins differ by is added to it.
+pub(super) fn distinct(dof: usize, entries: Vec<(Entry, Expansion)>, truncation: f64) -> Lagrangian {
+    let mut merged: f64 = 0.0;
     let largest = entries.iter().flat_map(|(_, e)| e.values()).fold(0.0, |m: f64, k| m.max(k.abs()));
     let mut kept: Vec<(Expansion, Vec<Place>)> = Vec::new();
     for (entry, expansion) in entries {
@@ -67,10 +69,13 @@ pub(super) fn distinct(dof: usize, entries: Vec<(Entry, Expansion)>) -> Lagrangi
             continue;
         }
         let twin = kept.iter_mut().find_map(|(known, places)| {
-            same_up_to_sign(known, &expansion, largest).map(|sign| (sign, places))
+            same_up_to_sign(known, &expansion, largest).map(|sign| (sign, &*known, places))
         });
         match twin {
-            Some((sign, places)) => places.push(Place { entry, sign }),
+            Some((sign, known, places)) => {
+                merged = merged.max(difference(known, &expansion, sign));
+                places.push(Place { entry, sign });
+            }
             None => kept.push((expansion, vec![Place { entry, sign: 1.0 }])),
         }
     }
@@ -84,7 +89,12 @@ pub(super) fn distinct(dof: usize, entries: Vec<(Entry, Expansion)>) -> Lagrangi
             places,
         })
         .collect();
-    Lagrangian { dof, functions: functions.into_iter().collect(), coefficients }
+    Lagrangian {
+        dof,
+        functions: functions.into_iter().collect(),
+        coefficients,
+        truncation: truncation + merged,
+    }
 }
 
 /// Turns the coefficient so that its largest term, the first of equal ones, is positive: then sums rarely begin with
@@ -97,6 +107,13 @@ fn orient(expansion: &mut Expansion, places: &mut [Place]) {
         expansion.values_mut().for_each(|k| *k = -*k);
         places.iter_mut().for_each(|place| place.sign = -place.sign);
     }
+}
+
+/// Σ|a − sign b| over all terms.
+fn difference(a: &Expansion, b: &Expansion, sign: f64) -> f64 {
+    let of = |e: &Expansion, f: &Function| e.get(f).copied().unwrap_or(0.0);
+    let functions: BTreeSet<&Function> = a.keys().chain(b.keys()).collect();
+    functions.into_iter().map(|f| (of(a, f) - sign * of(b, f)).abs()).sum()
 }
 
 /// +1 or −1 where `b` is ±`a` to rounding.

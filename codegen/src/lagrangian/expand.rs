@@ -24,8 +24,10 @@ pub type Expansion = BTreeMap<Function, f64>;
 /// to rounding. h_ijk = ½(∂d_ij/∂q_k + ∂d_ik/∂q_j − ∂d_jk/∂q_i).
 pub fn expand(arm: &Arm) -> Lagrangian {
     let n = arm.dof();
-    let d = expand_mass_matrix(arm);
-    let g = expand_gravity(arm);
+    let (d, dropped_d) = expand_mass_matrix(arm);
+    let (g, dropped_g) = expand_gravity(arm);
+    // h is half the sum of three derivatives, each at most twice what it is taken of.
+    let mut truncation = dropped_g.max(3.0 * dropped_d);
     let mut entries = Vec::new();
     for i in 0..n {
         for j in i..n {
@@ -36,15 +38,18 @@ pub fn expand(arm: &Arm) -> Lagrangian {
     for i in 0..n {
         for j in 0..n {
             for k in j..n {
-                entries.push((Entry::H(i, j, k), christoffel(&d, i, j, k, NEGLIGIBLE * largest_d)));
+                let (h, dropped) = christoffel(&d, i, j, k, NEGLIGIBLE * largest_d);
+                truncation = truncation.max(3.0 * dropped_d + dropped);
+                entries.push((Entry::H(i, j, k), h));
             }
         }
     }
     entries.extend(g.into_iter().enumerate().map(|(i, g)| (Entry::G(i), g)));
-    distinct(n, entries)
+    distinct(n, entries, truncation)
 }
 
-fn expand_mass_matrix(arm: &Arm) -> Vec<Vec<Expansion>> {
+/// D, and the most that an entry lost.
+fn expand_mass_matrix(arm: &Arm) -> (Vec<Vec<Expansion>>, f64) {
     let n = arm.dof();
     // D does not depend on the first joint.
     let axes: Vec<Axis> = arm
@@ -65,18 +70,20 @@ fn expand_mass_matrix(arm: &Arm) -> Vec<Vec<Expansion>> {
         })
         .collect();
     let scale = columns.iter().flatten().map(|(_, k)| k.abs()).fold(0.0, f64::max);
-    let upper: Vec<Expansion> = columns.into_iter().map(|c| significant(c, NEGLIGIBLE * scale)).collect();
-    (0..n).map(|i| (0..n).map(|j| upper[i.min(j) * n + i.max(j)].clone()).collect()).collect()
+    let (upper, dropped) = significant(columns, NEGLIGIBLE * scale);
+    let full = (0..n).map(|i| (0..n).map(|j| upper[i.min(j) * n + i.max(j)].clone()).collect()).collect();
+    (full, dropped)
 }
 
-fn expand_gravity(arm: &Arm) -> Vec<Expansion> {
+/// G, and the most that an entry lost.
+fn expand_gravity(arm: &Arm) -> (Vec<Expansion>, f64) {
     let axes: Vec<Axis> = arm.joints.iter().map(|joint| Axis::new(joint.kind, 1)).collect();
     let samples = sample(&axes, |q| gravity(arm, q));
     let columns: Vec<Vec<_>> = (0..arm.dof())
         .map(|i| collect(arm, &axes, &samples.iter().map(|sample| sample[i]).collect::<Vec<_>>()))
         .collect();
     let scale = columns.iter().flatten().map(|(_, k)| k.abs()).fold(0.0, f64::max);
-    columns.into_iter().map(|c| significant(c, NEGLIGIBLE * scale)).collect()
+    significant(columns, NEGLIGIBLE * scale)
 }
 
 /// Values of `f` on the grid, in grid order.
@@ -116,16 +123,23 @@ fn collect(arm: &Arm, axes: &[Axis], samples: &[f64]) -> Vec<(Function, f64)> {
     terms
 }
 
-fn significant(terms: Vec<(Function, f64)>, threshold: f64) -> Expansion {
-    terms.into_iter().filter(|(_, k)| k.abs() > threshold).collect()
+/// The terms above `threshold`, and the largest sum of magnitudes that one column lost.
+fn significant(columns: Vec<Vec<(Function, f64)>>, threshold: f64) -> (Vec<Expansion>, f64) {
+    let lost = |column: &Vec<(Function, f64)>| -> f64 {
+        column.iter().map(|(_, k)| k.abs()).filter(|&k| k <= threshold).sum()
+    };
+    let dropped = columns.iter().map(lost).fold(0.0, f64::max);
+    let keep =
+        |column: Vec<(Function, f64)>| column.into_iter().filter(|(_, k)| k.abs() > threshold).collect();
+    (columns.into_iter().map(keep).collect(), dropped)
 }
 
 fn largest<'a>(expansions: impl Iterator<Item = &'a Expansion>) -> f64 {
     expansions.flat_map(|e| e.values()).fold(0.0, |sofar, k| k.abs().max(sofar))
 }
 
-/// h_ijk by exact differentiation; cancellations below `threshold` are dropped.
-fn christoffel(d: &[Vec<Expansion>], i: usize, j: usize, k: usize, threshold: f64) -> Expansion {
+/// h_ijk by exact differentiation; cancellations below `threshold` are dropped, and their magnitudes summed.
+fn christoffel(d: &[Vec<Expansion>], i: usize, j: usize, k: usize, threshold: f64) -> (Expansion, f64) {
     let mut sum = Expansion::new();
     for (expansion, joint, factor) in [(&d[i][j], k, 0.5), (&d[i][k], j, 0.5), (&d[j][k], i, -0.5)] {
         for (function, value) in expansion {
@@ -134,6 +148,7 @@ fn christoffel(d: &[Vec<Expansion>], i: usize, j: usize, k: usize, threshold: f6
             }
         }
     }
+    let dropped = sum.values().map(|value| value.abs()).filter(|&value| value <= threshold).sum();
     sum.retain(|_, value| value.abs() > threshold);
-    sum
+    (sum, dropped)
 }

@@ -27,6 +27,8 @@ pub struct Lagrangian {
     pub functions: Vec<Function>,
     /// The r distinct coefficients, d before h before g.
     pub coefficients: Vec<Coefficient>,
+    /// What the expansion dropped as rounding error: no coefficient lost terms whose magnitudes sum to more.
+    pub truncation: f64,
 }
 
 impl Lagrangian {

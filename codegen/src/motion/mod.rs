@@ -1,6 +1,7 @@
 //! Desired motions: q_d(t), q̇_d(t), q̈_d(t).
 
 mod csv;
+mod enclosure;
 mod limits;
 mod spline;
 
@@ -11,6 +12,7 @@ use gramforge_runtime::reference::{Sinusoid, cubic, quintic, sinusoids};
 use crate::error::Faults;
 use crate::spec::MotionSpec;
 
+pub use enclosure::Reach;
 pub use limits::check_limits;
 pub use spline::Spline;
 

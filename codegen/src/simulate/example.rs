@@ -5,7 +5,7 @@ use std::path::Path;
 use super::{Comparison, Scenario, simulate};
 use crate::arm::{Arm, Body, Joint, JointKind, Limits, Transform};
 use crate::body::{expanded, recursive};
-use crate::bounds::{Bounds, sampled};
+use crate::bounds::{Bounds, Effort, certified};
 use crate::design::{Design, Gains, design, envelope};
 use crate::error::Error;
 use crate::graph::Graph;
@@ -49,7 +49,8 @@ impl Example {
             Some(functions) => {
                 let lagrangian = expand(&arm);
                 let reduced = shared(&lagrangian, &measure, functions);
-                let deltas = sampled(&lagrangian, &reduced, &tube, Some(&motion));
+                let proofs = certified(&lagrangian, &reduced, &tube, Some(&motion), &Effort::default());
+                let deltas: Vec<f64> = proofs.iter().map(|proof| proof.bound).collect();
                 (expanded(&arm, &lagrangian, &reduced), Bounds::new(&lagrangian, &deltas))
             }
             None => {

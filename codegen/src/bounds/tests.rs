@@ -1,0 +1,127 @@
+//! Enclosures against dense points.
+
+use super::polynomial::{Polynomial, Scratch};
+use super::region::{Cell, Region};
+use super::residual::Residual;
+use crate::lagrangian::{Function, MAX_JOINTS};
+use crate::measure::Domain;
+use crate::motion::Motion;
+use crate::spread::Spread;
+
+/// Twenty terms over three revolute joints and a prismatic one, in slots 0, 1, 3 and 2.
+fn terms() -> Vec<(Function, f64)> {
+    let spread = Spread::new(6);
+    let term = |index: usize| {
+        let u = spread.point(index);
+        let pick = |x: f64, low: i8, count: f64| low + (x * count) as i8;
+        let mut kappa = [0; MAX_JOINTS];
+        (kappa[0], kappa[1], kappa[3]) = (pick(u[0], 1, 2.0), pick(u[1], -2, 5.0), pick(u[2], -2, 5.0));
+        let mut power = [0; MAX_JOINTS];
+        power[2] = (u[3] * 3.0) as u8;
+        (Function { kappa, power, sine: u[4] > 0.5 }, 2.0 * u[5] - 1.0)
+    };
+    (0..20).map(term).collect()
+}
+
+fn value(terms: &[(Function, f64)], q: &[f64]) -> f64 {
+    terms.iter().map(|(psi, k)| k * psi.evaluate(q)).sum()
+}
+
+fn motion() -> Motion {
+    Motion::Quintic { from: vec![-0.5, 0.2, 0.3, -1.0], to: vec![0.8, -0.9, 0.8, 0.7], duration: 2.0 }
+}
+
+#[test]
+fn the_jet_is_value_gradient_and_hessian() {
+    let terms = terms();
+    let polynomial = Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k)));
+    assert_eq!(polynomial.joints, [0, 1, 2, 3]);
+    let q = [0.3, -1.2, 0.7, 2.1];
+    let mut scratch = Scratch::default();
+    let jet = polynomial.jet(&q, &mut scratch);
+    assert!((jet.value - value(&terms, &q)).abs() < 1e-13);
+    let h = 1e-5;
+    for i in 0..4 {
+        let (mut after, mut before) = (q, q);
+        after[i] += h;
+        before[i] -= h;
+        let slope = (value(&terms, &after) - value(&terms, &before)) / (2.0 * h);
+        assert!((jet.gradient[i] - slope).abs() < 1e-8, "gradient {i}");
+        let (after, before) = (polynomial.jet(&after, &mut scratch), polynomial.jet(&before, &mut scratch));
+        for j in 0..4 {
+            let bend = (after.gradient[j] - before.gradient[j]) / (2.0 * h);
+            assert!((jet.hessian[i][j] - bend).abs() < 1e-7, "hessian {i}{j}");
+        }
+    }
+}
+
+#[test]
+fn no_point_of_a_cell_exceeds_its_enclosure() {
+    let terms = terms();
+    let motion = motion();
+    let tube = Domain::Tube(vec![0.2; 4]);
+    let workspace = Domain::Workspace(vec![[-1.0, 2.0], [-3.0, 0.5], [0.1, 0.9], [-2.0, 2.0]]);
+    for (domain, motion) in [(tube, Some(&motion)), (workspace, None)] {
+        let polynomial = Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k)));
+        let reach = super::reach(&domain, motion);
+        let residual = Residual::new(polynomial, &domain, motion, &reach);
+        let region = Region::new(&domain, motion, &residual.polynomial.joints);
+        let (count, mut scratch) = (region.variables(), Scratch::default());
+        let (cells, inside) = (Spread::new(2 * count), Spread::new(count));
+        for index in 0..300 {
+            let unit = cells.point(index);
+            let size = [1.0, 0.3, 0.1, 0.01][index % 4];
+            let mut cell: Cell = region.root;
+            for i in 0..count {
+                let range = region.root.high[i] - region.root.low[i];
+                cell.low[i] += range * unit[i] * (1.0 - size);
+                cell.high[i] = (cell.low[i] + range * size * unit[count + i]).min(region.root.high[i]);
+            }
+            let frame = region.frame(&cell);
+            let jet = residual.jet(&frame, &mut scratch);
+            let [up, down] = [1.0, -1.0].map(|sign| residual.enclose(&frame, &jet, sign));
+            for point in 0..200 {
+                let u = inside.point(point);
+                let x: Vec<f64> =
+                    (0..count).map(|i| cell.low[i] + u[i] * (cell.high[i] - cell.low[i])).collect();
+                let q = position(motion, &x);
+                let f = value(&terms, &q);
+                assert!(f <= up.upper && -f <= down.upper, "cell {index}: {f} {} {}", up.upper, down.upper);
+                for i in (0..count).filter(|&i| up.slope[i] != 0) {
+                    let mut further = x.clone();
+                    further[i] = cell.high[i];
+                    let rise = value(&terms, &position(motion, &further)) - f;
+                    assert!(rise * f64::from(up.slope[i]) >= -1e-13, "cell {index}, slope {i}: {rise}");
+                }
+            }
+        }
+    }
+}
+
+fn position(motion: Option<&Motion>, x: &[f64]) -> Vec<f64> {
+    match motion {
+        Some(motion) => motion.at(x[4]).q.iter().zip(x).map(|(q, e)| q + e).collect(),
+        None => x.to_vec(),
+    }
+}
+
+#[test]
+fn the_excess_over_the_quadratic_falls_with_the_third_power() {
+    let terms = terms();
+    let domain = Domain::Workspace(vec![[-1.0, 1.0]; 4]);
+    let polynomial = Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k)));
+    let residual = Residual::new(polynomial, &domain, None, &[1.0; 4]);
+    let region = Region::new(&domain, None, &residual.polynomial.joints);
+    let mut scratch = Scratch::default();
+    // Along one variable the quadratic is maximised exactly, so only the remainder is left.
+    let mut excess = |w: f64| {
+        let mut cell = Region::point(&[0.3, -0.4, 0.5, 0.2]);
+        (cell.low[1], cell.high[1]) = (-0.4 - w, -0.4 + w);
+        let frame = region.frame(&cell);
+        let enclosure = residual.enclose(&frame, &residual.jet(&frame, &mut scratch), 1.0);
+        let at = |i: i32| value(&terms, &[0.3, -0.4 + w * f64::from(i) / 1000.0, 0.5, 0.2]);
+        enclosure.upper - (-1000..=1000).map(at).fold(f64::MIN, f64::max)
+    };
+    let (wide, narrow) = (excess(0.04), excess(0.01));
+    assert!(narrow > 0.0 && (50.0..80.0).contains(&(wide / narrow)), "{wide} {narrow}");
+}
