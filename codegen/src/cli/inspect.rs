@@ -71,9 +71,21 @@ struct Costs {
 struct ControlView<'a> {
     k_star: f64,
     v_max: f64,
+    /// What V stays below, J.
+    level: f64,
     position_error: &'a [f64],
     velocity_error: &'a [f64],
     speed: &'a [f64],
+    guaranteed: bool,
+    reasons: &'a [String],
+    /// By joint.
+    initial_error_max: &'a [f64],
+    period_max: f64,
+    /// By joint.
+    final_error: &'a [f64],
+    tube_needed: Option<&'a [f64]>,
+    inertia_min: f64,
+    inertia_certified: bool,
 }
 
 impl Inspect {
@@ -89,8 +101,24 @@ fn view(generation: &Generation) -> Inspection<'_> {
     let Generation { arm, lagrangian, reduced, bounds, code, exact_code, design, .. } = generation;
     let operations = Costs { reduced: code.operations(), exact: exact_code.operations() };
     let control = design.as_ref().map(|design| {
-        let Envelope { v_max, position_error, velocity_error, speed } = &design.envelope;
-        ControlView { k_star: design.k_star, v_max: *v_max, position_error, velocity_error, speed }
+        let Envelope { v_max, level, position_error, velocity_error, speed } = &design.envelope;
+        let promised = &design.guarantee;
+        ControlView {
+            k_star: design.k_star,
+            v_max: *v_max,
+            level: *level,
+            position_error,
+            velocity_error,
+            speed,
+            guaranteed: promised.holds,
+            reasons: &promised.reasons,
+            initial_error_max: &promised.initial_error_max,
+            period_max: promised.period_max,
+            final_error: &promised.final_error,
+            tube_needed: promised.tube_needed.as_deref(),
+            inertia_min: promised.inertia.least,
+            inertia_certified: promised.inertia.certified,
+        }
     });
     Inspection {
         name: &generation.loaded.spec.name,
@@ -157,6 +185,25 @@ fn text(view: &Inspection, generation: &Generation) -> String {
     }
     if let Some(control) = &view.control {
         lines.push(format!("control: k* = {:.4}, V_max(0) = {:.4} J", control.k_star, control.v_max));
+        lines.extend(guarantee(control));
     }
     lines.join("\n") + "\n"
+}
+
+fn guarantee(control: &ControlView) -> Vec<String> {
+    let list = |x: &[f64]| x.iter().map(|e| format!("{e:.4}")).collect::<Vec<_>>().join(", ");
+    let kind = if control.inertia_certified { "certified" } else { "sampled" };
+    let mut lines = vec![
+        format!("largest errors: position ({}), velocity ({})", list(control.position_error), list(control.velocity_error)),
+        format!("final error: ({})", list(control.final_error)),
+        format!("largest initial error: ({})", list(control.initial_error_max)),
+        match control.tube_needed {
+            Some(tube) => format!("smallest sufficient tube: ({})", list(tube)),
+            None => "smallest sufficient tube: none found".to_string(),
+        },
+        format!("longest period: {:.4e} s, with lambda_min(D) >= {:.4} ({kind})", control.period_max, control.inertia_min),
+        format!("guaranteed: {}", control.guaranteed),
+    ];
+    lines.extend(control.reasons.iter().map(|reason| format!("  {reason}")));
+    lines
 }
