@@ -38,6 +38,8 @@ struct Inspection<'a> {
     operations: Costs,
     verdict: String,
     control: Option<ControlView<'a>>,
+    #[serde(flatten)]
+    guarantee: Option<GuaranteeView<'a>>,
     warnings: &'a [String],
 }
 
@@ -76,6 +78,10 @@ struct ControlView<'a> {
     position_error: &'a [f64],
     velocity_error: &'a [f64],
     speed: &'a [f64],
+}
+
+#[derive(Serialize)]
+struct GuaranteeView<'a> {
     guaranteed: bool,
     reasons: &'a [String],
     /// By joint.
@@ -102,7 +108,6 @@ fn view(generation: &Generation) -> Inspection<'_> {
     let operations = Costs { reduced: code.operations(), exact: exact_code.operations() };
     let control = design.as_ref().map(|design| {
         let Envelope { v_max, level, position_error, velocity_error, speed } = &design.envelope;
-        let promised = &design.guarantee;
         ControlView {
             k_star: design.k_star,
             v_max: *v_max,
@@ -110,6 +115,11 @@ fn view(generation: &Generation) -> Inspection<'_> {
             position_error,
             velocity_error,
             speed,
+        }
+    });
+    let guarantee = design.as_ref().map(|design| {
+        let promised = &design.guarantee;
+        GuaranteeView {
             guaranteed: promised.holds,
             reasons: &promised.reasons,
             initial_error_max: &promised.initial_error_max,
@@ -144,6 +154,7 @@ fn view(generation: &Generation) -> Inspection<'_> {
         },
         operations,
         control,
+        guarantee,
         warnings: &generation.warnings,
     }
 }
@@ -185,25 +196,34 @@ fn text(view: &Inspection, generation: &Generation) -> String {
     }
     if let Some(control) = &view.control {
         lines.push(format!("control: k* = {:.4}, V_max(0) = {:.4} J", control.k_star, control.v_max));
-        lines.extend(guarantee(control));
+        lines.push(format!(
+            "largest errors: position ({}), velocity ({})",
+            list(control.position_error),
+            list(control.velocity_error)
+        ));
+    }
+    if let Some(promised) = &view.guarantee {
+        lines.extend(guarantee(promised));
     }
     lines.join("\n") + "\n"
 }
 
-fn guarantee(control: &ControlView) -> Vec<String> {
-    let list = |x: &[f64]| x.iter().map(|e| format!("{e:.4}")).collect::<Vec<_>>().join(", ");
-    let kind = if control.inertia_certified { "certified" } else { "sampled" };
+fn list(x: &[f64]) -> String {
+    x.iter().map(|e| format!("{e:.4}")).collect::<Vec<_>>().join(", ")
+}
+
+fn guarantee(promised: &GuaranteeView) -> Vec<String> {
+    let kind = if promised.inertia_certified { "certified" } else { "sampled" };
     let mut lines = vec![
-        format!("largest errors: position ({}), velocity ({})", list(control.position_error), list(control.velocity_error)),
-        format!("final error: ({})", list(control.final_error)),
-        format!("largest initial error: ({})", list(control.initial_error_max)),
-        match control.tube_needed {
-            Some(tube) => format!("smallest sufficient tube: ({})", list(tube)),
-            None => "smallest sufficient tube: none found".to_string(),
-        },
-        format!("longest period: {:.4e} s, with lambda_min(D) >= {:.4} ({kind})", control.period_max, control.inertia_min),
-        format!("guaranteed: {}", control.guaranteed),
+        format!("final error: ({})", list(promised.final_error)),
+        format!("largest initial error: ({})", list(promised.initial_error_max)),
+        format!("smallest sufficient tube: {}", promised.tube_needed.map_or("none found".to_string(), list)),
+        format!(
+            "longest period: {:.4e} s, with lambda_min(D) >= {:.4} ({kind})",
+            promised.period_max, promised.inertia_min
+        ),
+        format!("guaranteed: {}", promised.guaranteed),
     ];
-    lines.extend(control.reasons.iter().map(|reason| format!("  {reason}")));
+    lines.extend(promised.reasons.iter().map(|reason| format!("  {reason}")));
     lines
 }

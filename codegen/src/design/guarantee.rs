@@ -79,7 +79,9 @@ impl Parts<'_> {
         let envelope = match settled {
             Some(envelope) => envelope,
             None => {
-                reasons.push("the layer lets V rise without end: widen nothing, raise W or narrow φ".to_string());
+                reasons.push(
+                    "the layer lets V rise without end: widen nothing, raise W or narrow φ".to_string(),
+                );
                 let (position_error, velocity_error) = course.errors(v_max, position)?;
                 let speed = course.speed.iter().zip(&velocity_error).map(|(d, e)| d + e).collect();
                 Envelope { v_max, level: v_max, position_error, velocity_error, speed }
@@ -102,7 +104,8 @@ impl Parts<'_> {
                 control.period
             ));
         }
-        if control.law != LawSpec::Exact && self.layer.is_none() && course.ball(&gain, true) > envelope.level {
+        if control.law != LawSpec::Exact && self.layer.is_none() && course.ball(&gain, true) > envelope.level
+        {
             reasons.push(format!(
                 "the sign function, held for {} s, may raise V from {:.3e} J to {:.3e} J: take a boundary layer or a shorter period",
                 control.period,
@@ -111,11 +114,12 @@ impl Parts<'_> {
             ));
         }
         let leaves = outside(domain, motion, arm, &envelope.position_error);
-        let tube_needed = if leaves.is_empty() || width(domain, n).is_none() || !reasons.is_empty() && !facts.certified {
-            Some(envelope.position_error.clone())
-        } else {
-            self.smallest_tube(&inertia, &envelope, position)?
-        };
+        let tube_needed =
+            if leaves.is_empty() || width(domain, n).is_none() || !reasons.is_empty() && !facts.certified {
+                Some(envelope.position_error.clone())
+            } else {
+                self.smallest_tube(&inertia, &envelope, position)?
+            };
         let inside = |share: f64, shape: &[f64]| -> Result<bool, Error> {
             let scaled: Vec<f64> = shape.iter().map(|e| e * share).collect();
             let settled = course.settle(level(&scaled), &scaled)?;
@@ -207,7 +211,10 @@ impl Parts<'_> {
 
 /// The direction in which the initial error is scaled.
 fn shape(position: &[f64], width: &[f64]) -> Vec<f64> {
-    [position, width].into_iter().find(|s| s.iter().any(|e| *e > 0.0)).map_or(vec![1.0; width.len()], <[f64]>::to_vec)
+    [position, width]
+        .into_iter()
+        .find(|s| s.iter().any(|e| *e > 0.0))
+        .map_or(vec![1.0; width.len()], <[f64]>::to_vec)
 }
 
 /// The largest multiple of `shape`, up to half a turn (3.14 m), for which `inside` holds.

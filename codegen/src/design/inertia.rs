@@ -12,8 +12,6 @@ use crate::arm::Arm;
 use crate::dynamics::{coriolis, mass_matrix};
 use crate::lagrangian::{Entry, Function, Lagrangian};
 
-/// Vertices at which one search may look.
-const BUDGET: usize = 40_000;
 /// A direction whose slope is below this fraction of D counts as remainder, which halves the vertices.
 const FLAT: f64 = 0.003;
 /// Rounding of D, its expansion and its eigenvalues, relative.
@@ -83,7 +81,7 @@ impl<'a> Inertia<'a> {
     }
 
     /// The largest values over `cells` of the entries of `f`, each relative to what is attained within `tolerance` or
-    /// as near as the budget allows.
+    /// as near as looking at `budget` vertices allows.
     ///
     /// `f` gets matrices D⁻ ≼ D ≼ D⁺ at a vertex; each of its entries must be positive, convex in D, and either fall
     /// with D and look at D⁻ or rise with D and look at D⁺. Where D⁻ is not positive definite it gives infinity.
@@ -91,6 +89,7 @@ impl<'a> Inertia<'a> {
         &self,
         cells: Vec<Cell>,
         tolerance: f64,
+        budget: usize,
         f: impl Fn(&DMatrix<f64>, &DMatrix<f64>) -> Vec<f64> + Sync,
     ) -> Extremes {
         let mut judged: Vec<Judged> = cells.into_par_iter().map(|cell| self.judge(cell, &f)).collect();
@@ -102,7 +101,7 @@ impl<'a> Inertia<'a> {
             };
             let (mut open, closed): (Vec<Judged>, Vec<Judged>) =
                 judged.into_iter().partition(|j| excess(j) > 1.0 + tolerance);
-            let room = BUDGET.saturating_sub(spent);
+            let room = budget.saturating_sub(spent);
             if open.is_empty() || room == 0 {
                 judged = open.into_iter().chain(closed).collect();
                 let widen = |bound: Vec<f64>| bound.iter().map(|b| b * (1.0 + ROUNDING)).collect();

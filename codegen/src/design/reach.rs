@@ -11,6 +11,10 @@ use crate::spec::{CoriolisTermSpec, LawSpec};
 
 /// Relative gap at which the search for extremes of D ends.
 const TOLERANCE: f64 = 0.05;
+/// Vertices at which a search over a domain may look, for an arm of one joint; the cost of each grows with n².
+const BUDGET: usize = 200_000;
+/// The same for the positions about the start.
+const START_BUDGET: usize = 2_000;
 /// Rounds in which the level of V must settle.
 const ROUNDS: usize = 300;
 
@@ -75,7 +79,7 @@ pub(super) fn inertia_bounds(
     let n = gains.pqq.len();
     let pqq = dense(&gains.pqq);
     let root = &form.root_inverse;
-    let extremes = inertia.largest(cells, TOLERANCE, |low, high| {
+    let extremes = inertia.largest(cells, TOLERANCE, BUDGET / (n * n), |low, high| {
         let mut out = match low.clone().cholesky() {
             Some(factor) => {
                 let inverse = factor.inverse();
@@ -92,12 +96,7 @@ pub(super) fn inertia_bounds(
     });
     let certified = extremes.bound.iter().all(|b| b.is_finite());
     let values = if certified { extremes.bound } else { extremes.seen };
-    InertiaBounds {
-        least: 1.0 / values[0],
-        mobility: values[1..=n].to_vec(),
-        time: values[n + 1],
-        certified,
-    }
+    InertiaBounds { least: 1.0 / values[0], mobility: values[1..=n].to_vec(), time: values[n + 1], certified }
 }
 
 /// A law at work: everything but the initial error.
@@ -183,7 +182,8 @@ impl Course<'_> {
             }
             (_, None) => {}
         }
-        let row = |i: usize| h.iter().enumerate().map(|(j, h)| self.form.inverse[(i, j)].abs() * h).sum::<f64>();
+        let row =
+            |i: usize| h.iter().enumerate().map(|(j, h)| self.form.inverse[(i, j)].abs() * h).sum::<f64>();
         let eta = libm::sqrt(h.iter().enumerate().map(|(i, h)| h * row(i)).sum::<f64>());
         let x = 0.5 * (eta + libm::sqrt(eta * eta + 4.0 * c));
         0.5 * self.inertia.time * x * x
@@ -240,7 +240,7 @@ pub(super) fn initial_level(
     if s.iter().all(|&s| s == 0.0) {
         return elastic;
     }
-    let extremes = inertia.largest(vec![cell], 1e-3, |_, high| vec![largest_form(high, &s)]);
+    let extremes = inertia.largest(vec![cell], 1e-3, START_BUDGET, |_, high| vec![largest_form(high, &s)]);
     extremes.bound[0] + elastic
 }
 
@@ -248,7 +248,7 @@ pub(super) fn initial_level(
 pub(super) fn fastest(inertia: &Inertia, cells: Vec<Cell>, damping: &[Vec<f64>]) -> Result<f64, Error> {
     let definite = || Error::Internal("K is not positive definite after its check".to_string());
     let root = dense(damping).cholesky().ok_or_else(definite)?.l();
-    let extremes = inertia.largest(cells, TOLERANCE, |low, _| {
+    let extremes = inertia.largest(cells, TOLERANCE, BUDGET / damping.len().pow(2), |low, _| {
         let Some(factor) = low.clone().cholesky() else { return vec![f64::INFINITY] };
         vec![(root.transpose() * factor.solve(&root)).symmetric_eigenvalues().max()]
     });

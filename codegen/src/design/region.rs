@@ -45,7 +45,12 @@ pub(super) fn outside(domain: &Domain, motion: Option<&Motion>, arm: &Arm, error
     if let Some(width) = width(domain, arm.dof()) {
         let of = |i: usize| {
             exceeds(error[i], width[i]).then(|| {
-                format!("the error of joint {} may reach {:.4}, the tube holds {:.4}", i + 1, error[i], width[i])
+                format!(
+                    "the error of joint {} may reach {:.4}, the tube holds {:.4}",
+                    i + 1,
+                    error[i],
+                    width[i]
+                )
             })
         };
         return (0..arm.dof()).filter_map(of).collect();

@@ -106,7 +106,8 @@ impl Motion {
         match self {
             // max|10·6x − 15·12x² + 6·20x³| over [0, 1] is 10/√3.
             Self::Quintic { from, to, duration } => {
-                let most = |(from, to): (&f64, &f64)| 5.773_502_692 * (to - from).abs() / (duration * duration);
+                let most =
+                    |(from, to): (&f64, &f64)| 5.773_502_692 * (to - from).abs() / (duration * duration);
                 from.iter().zip(to).map(most).collect()
             }
             Self::Spline(spline) => spline.largest_acceleration(),

@@ -14,7 +14,8 @@ use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::reduction::shared;
 use crate::spec::{
-    ControlSpec, CoriolisTermSpec, InitialErrorSpec, LawSpec, MatrixSpec, OnFaultSpec, SimulationSpec, VectorSpec,
+    ControlSpec, CoriolisTermSpec, InitialErrorSpec, LawSpec, MatrixSpec, OnFaultSpec, SimulationSpec,
+    VectorSpec,
 };
 
 /// A link: α (quarter turns), a, d, mass, diagonal of the pseudo-inertia, first moment, in its standard frame.
