@@ -80,7 +80,7 @@ impl Parts<'_> {
             Some(envelope) => envelope,
             None => {
                 reasons.push(
-                    "the layer lets V rise without end: widen nothing, raise W or narrow φ".to_string(),
+                    "no level of V is found that the law keeps it below: raise W or Omega, or narrow the boundary layer".to_string(),
                 );
                 let (position_error, velocity_error) = course.errors(v_max, position)?;
                 let speed = course.speed.iter().zip(&velocity_error).map(|(d, e)| d + e).collect();
@@ -114,12 +114,13 @@ impl Parts<'_> {
             ));
         }
         let leaves = outside(domain, motion, arm, &envelope.position_error);
-        let tube_needed =
-            if leaves.is_empty() || width(domain, n).is_none() || !reasons.is_empty() && !facts.certified {
-                Some(envelope.position_error.clone())
-            } else {
-                self.smallest_tube(&inertia, &envelope, position)?
-            };
+        let tube_needed = if !facts.certified {
+            None
+        } else if leaves.is_empty() || width(domain, n).is_none() {
+            Some(envelope.position_error.clone())
+        } else {
+            self.smallest_tube(&inertia, &envelope, position)?
+        };
         let inside = |share: f64, shape: &[f64]| -> Result<bool, Error> {
             let scaled: Vec<f64> = shape.iter().map(|e| e * share).collect();
             let settled = course.settle(level(&scaled), &scaled)?;
