@@ -6,7 +6,7 @@ use crate::arm::{Arm, Built, indefinite, indefinite_among};
 use crate::body::{self, Form};
 use crate::bounds::{Bounds, Certificate, Effort, certified};
 use crate::check::{examine, vector};
-use crate::design::{Design, Gains, checked, design, envelope};
+use crate::design::{Design, Problem, checked, design};
 use crate::dynamics::mass_matrix;
 use crate::emit::{Module, emit};
 use crate::error::{Error, Faults};
@@ -135,10 +135,15 @@ impl Generation {
             .control
             .as_ref()
             .map(|control| {
-                let gains = Gains::new(control, arm.dof())?;
-                let speed = desired_speed(motion.as_ref(), &arm);
-                let envelope = envelope(&arm, &speed, &measure.points, &gains, &control.initial_error)?;
-                design(control, &arm, &bounds, envelope)
+                design(&Problem {
+                    file: &loaded.path,
+                    control,
+                    arm: &arm,
+                    lagrangian: &lagrangian,
+                    bounds: &bounds,
+                    domain: &domain,
+                    motion: motion.as_ref(),
+                })
             })
             .transpose()?;
         if design.as_ref().is_some_and(|design| !design.is_finite()) {
@@ -206,12 +211,4 @@ fn domain(spec: &Spec, arm: &Arm) -> Result<Domain, Error> {
         }
         (None, Some(_)) => Domain::Tube(vec![DEFAULT_TUBE; arm.dof()]),
     })
-}
-
-/// Largest desired speed by joint: of the motion, else the joint's limit, else 0.
-fn desired_speed(motion: Option<&Motion>, arm: &Arm) -> Vec<f64> {
-    match motion {
-        Some(motion) => motion.largest_speed(),
-        None => arm.joints.iter().map(|joint| joint.limits.velocity.unwrap_or(0.0)).collect(),
-    }
 }

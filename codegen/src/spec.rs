@@ -362,9 +362,21 @@ pub struct ControlSpec {
     /// φ of the boundary layer, unit of s (rad/s or m/s); absent: the sign function.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub boundary_layer: Option<VectorSpec>,
+    /// How law `report` outweighs the Coriolis torque of s: `matrix` (−ΔC1 s) or `switching` (−diag(sgn s) ΔC|s|).
+    #[serde(default)]
+    pub coriolis_term: CoriolisTermSpec,
+    /// ΔC1 of equation (34), N·m·s/rad: symmetric, and verified to outweigh every |δC| ≤ ΔC. Default: k*·I.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub delta_c1: Option<MatrixSpec>,
     /// Largest initial error.
     #[serde(default)]
     pub initial_error: InitialErrorSpec,
+    /// Take a period longer than the sampled loop admits; nothing is guaranteed then.
+    #[serde(default)]
+    pub allow_long_period: bool,
+    /// Refuse a specification whose guarantee does not hold.
+    #[serde(default)]
+    pub require_guarantee: bool,
     /// Add the Coulomb friction of the desired direction to the command.
     #[serde(default)]
     pub compensate_coulomb: bool,
@@ -379,8 +391,21 @@ pub struct ControlSpec {
 pub enum LawSpec {
     /// Equation (16): no robust term.
     Exact,
-    /// Equation (34) with ΔC1 = k*·I.
+    /// Equation (34).
     Report,
+    /// Equation (34) with the model's error bounded at the state at hand in place of its bracket, without ΔC1.
+    Tight,
+}
+
+/// The variants of equation (34).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CoriolisTermSpec {
+    /// −ΔC1 s.
+    #[default]
+    Matrix,
+    /// −diag(sgn s) ΔC|s|.
+    Switching,
 }
 
 /// What the controller commands when a measurement is not finite.

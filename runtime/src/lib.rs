@@ -6,7 +6,7 @@
 //! A generated module supplies a [`Model`] and the constants. The rest of a firmware's loop is this:
 //!
 //! ```
-//! use gramforge_runtime::law::{Gains, ReportLaw, Switching};
+//! use gramforge_runtime::law::{CoriolisTerm, Gains, ReportLaw, Switching};
 //! use gramforge_runtime::reference::{QuinticReference, Reference};
 //! use gramforge_runtime::{Bounds, Controller, Model, OnFault, Real, Settings};
 //!
@@ -30,7 +30,7 @@
 //! const LAW: ReportLaw<f64, 1> = ReportLaw {
 //!     gains: Gains { p12: [[4.0]], damping: [[5.1]], pqq: [[0.25]] },
 //!     delta_c: [[0.0]],
-//!     delta_c1: [[0.0]],
+//!     coriolis_term: CoriolisTerm::Matrix([[0.0]]),
 //!     disturbance: [0.0],
 //!     switching: Switching::BoundaryLayer([0.05]),
 //!     coulomb: [[0.0, 0.0]],
@@ -78,7 +78,7 @@ mod vector;
 
 pub use controller::{Command, Controller, OnFault, Settings};
 pub use error::{ConfigError, Fault, PlantError, Quantity, Requirement};
-pub use law::{ExactLaw, Gains, Law, ReportLaw, Switching};
+pub use law::{CoriolisTerm, ExactLaw, Gains, Law, ReportLaw, Switching, TightLaw};
 pub use model::{Bounds, Model};
 pub use real::Real;
 pub use reference::{Desired, QuinticReference, Reference, SinusoidReference, SplineReference};

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use super::shape::{entries, has, matrix};
 use crate::error::Faults;
-use crate::spec::{ControlSpec, MatrixSpec};
+use crate::spec::{ControlSpec, CoriolisTermSpec, LawSpec, MatrixSpec};
 
 /// Rounding that passes for symmetry or for zero, relative to the largest entry.
 const SLACK: f64 = 1e-9;
@@ -24,12 +24,27 @@ pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut F
     let (position, velocity) = ("control.initial_error.position", "control.initial_error.velocity");
     entries(position, &initial.position, joints, |v| v >= 0.0, wanted, faults);
     entries(velocity, &initial.velocity, joints, |v| v >= 0.0, wanted, faults);
+    delta_c1(control, joints, faults);
     definite("control.W", &control.w, joints, faults);
     let pqq = definite("control.Pqq", &control.pqq, joints, faults);
     let omega = definite("control.Omega", &control.omega, joints, faults);
     if let (Some(pqq), Some(omega)) = (pqq, omega) {
         p12(pqq, &omega, faults);
     }
+}
+
+/// ΔC1 has its place in one variant of one law; whether it is large enough takes the bounds to see.
+fn delta_c1(control: &ControlSpec, joints: Option<usize>, faults: &mut Faults) {
+    if control.law != LawSpec::Report && control.coriolis_term != CoriolisTermSpec::Matrix {
+        let mend = "remove it, or choose law `report`";
+        faults.push("control.coriolis_term", "goes with law `report` alone", mend);
+    }
+    let Some(spec) = &control.delta_c1 else { return };
+    if control.law != LawSpec::Report || control.coriolis_term != CoriolisTermSpec::Matrix {
+        let mend = "remove it, or choose law `report` with `coriolis_term` `matrix`";
+        faults.push("control.delta_c1", "has no place in this law", mend);
+    }
+    square("control.delta_c1", spec, joints, faults);
 }
 
 /// The matrix of a gain, if it is symmetric positive definite and of the right size.
@@ -54,6 +69,21 @@ fn definite(
         }
         _ => {}
     }
+    let matrix = square(field, spec, joints, faults)?;
+    if matrix.clone().cholesky().is_none() {
+        faults.push(field, format!("is {}, which is not positive definite", show(&matrix)), wanted);
+        return None;
+    }
+    Some(matrix)
+}
+
+/// The matrix, if it is symmetric and of the right size.
+fn square(
+    field: &str,
+    spec: &MatrixSpec,
+    joints: Option<usize>,
+    faults: &mut Faults,
+) -> Option<DMatrix<f64>> {
     let n = joints?;
     let Some(rows) = matrix(spec, n) else {
         let found = match spec {
@@ -77,11 +107,12 @@ fn definite(
         );
         return None;
     }
-    if matrix.clone().cholesky().is_none() {
-        faults.push(field, format!("is {rows:?}, which is not positive definite"), wanted);
-        return None;
-    }
     Some(matrix)
+}
+
+fn show(matrix: &DMatrix<f64>) -> String {
+    let row = |i: usize| matrix.row(i).iter().copied().collect::<Vec<f64>>();
+    format!("{:?}", (0..matrix.nrows()).map(row).collect::<Vec<_>>())
 }
 
 /// The first pair of entries that differ across the diagonal.

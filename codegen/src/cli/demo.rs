@@ -60,6 +60,8 @@ pub(super) fn run() -> Result<String, Error> {
 fn with_boundary_layer(mut loaded: Loaded) -> Loaded {
     if let Some(control) = &mut loaded.spec.control {
         control.boundary_layer = Some(VectorSpec::Scalar(BOUNDARY_LAYER));
+        // The report's period is too long for so narrow a layer; the comparison is its own all the same.
+        control.allow_long_period = true;
     }
     loaded
 }

@@ -44,6 +44,8 @@ struct Inspection<'a> {
     operations: Costs,
     verdict: String,
     control: Option<ControlView<'a>>,
+    #[serde(flatten)]
+    guarantee: Option<GuaranteeView<'a>>,
     warnings: &'a [String],
 }
 
@@ -90,9 +92,25 @@ struct Costs {
 struct ControlView<'a> {
     k_star: f64,
     v_max: f64,
+    /// What V stays below, J.
+    level: f64,
     position_error: &'a [f64],
     velocity_error: &'a [f64],
     speed: &'a [f64],
+}
+
+#[derive(Serialize)]
+struct GuaranteeView<'a> {
+    guaranteed: bool,
+    reasons: &'a [String],
+    /// By joint.
+    initial_error_max: &'a [f64],
+    period_max: f64,
+    /// By joint.
+    final_error: &'a [f64],
+    tube_needed: Option<&'a [f64]>,
+    inertia_min: f64,
+    inertia_certified: bool,
 }
 
 impl Inspect {
@@ -108,8 +126,28 @@ fn view(generation: &Generation) -> Inspection<'_> {
     let Generation { arm, lagrangian, reduced, bounds, code, exact_code, design, .. } = generation;
     let operations = Costs { reduced: code.operations(), exact: exact_code.operations() };
     let control = design.as_ref().map(|design| {
-        let Envelope { v_max, position_error, velocity_error, speed } = &design.envelope;
-        ControlView { k_star: design.k_star, v_max: *v_max, position_error, velocity_error, speed }
+        let Envelope { v_max, level, position_error, velocity_error, speed } = &design.envelope;
+        ControlView {
+            k_star: design.k_star,
+            v_max: *v_max,
+            level: *level,
+            position_error,
+            velocity_error,
+            speed,
+        }
+    });
+    let guarantee = design.as_ref().map(|design| {
+        let promised = &design.guarantee;
+        GuaranteeView {
+            guaranteed: promised.holds,
+            reasons: &promised.reasons,
+            initial_error_max: &promised.initial_error_max,
+            period_max: promised.period_max,
+            final_error: &promised.final_error,
+            tube_needed: promised.tube_needed.as_deref(),
+            inertia_min: promised.inertia.least,
+            inertia_certified: promised.inertia.certified,
+        }
     });
     Inspection {
         name: &generation.loaded.spec.name,
@@ -139,6 +177,7 @@ fn view(generation: &Generation) -> Inspection<'_> {
         },
         operations,
         control,
+        guarantee,
         warnings: &generation.warnings,
     }
 }
@@ -203,6 +242,34 @@ fn text(view: &Inspection, generation: &Generation) -> String {
     }
     if let Some(control) = &view.control {
         lines.push(format!("control: k* = {:.4}, V_max(0) = {:.4} J", control.k_star, control.v_max));
+        lines.push(format!(
+            "largest errors: position ({}), velocity ({})",
+            list(control.position_error),
+            list(control.velocity_error)
+        ));
+    }
+    if let Some(promised) = &view.guarantee {
+        lines.extend(guarantee(promised));
     }
     lines.join("\n") + "\n"
+}
+
+fn list(x: &[f64]) -> String {
+    x.iter().map(|e| format!("{e:.4}")).collect::<Vec<_>>().join(", ")
+}
+
+fn guarantee(promised: &GuaranteeView) -> Vec<String> {
+    let kind = if promised.inertia_certified { "certified" } else { "sampled" };
+    let mut lines = vec![
+        format!("final error: ({})", list(promised.final_error)),
+        format!("largest initial error: ({})", list(promised.initial_error_max)),
+        format!("smallest sufficient tube: {}", promised.tube_needed.map_or("none found".to_string(), list)),
+        format!(
+            "longest period: {:.4e} s, with lambda_min(D) >= {:.4} ({kind})",
+            promised.period_max, promised.inertia_min
+        ),
+        format!("guaranteed: {}", promised.guaranteed),
+    ];
+    lines.extend(promised.reasons.iter().map(|reason| format!("  {reason}")));
+    lines
 }

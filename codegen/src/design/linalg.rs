@@ -2,8 +2,14 @@
 
 use nalgebra::DMatrix;
 
-fn dense(m: &[Vec<f64>]) -> DMatrix<f64> {
+/// As nalgebra's matrix.
+pub(crate) fn dense(m: &[Vec<f64>]) -> DMatrix<f64> {
     DMatrix::from_fn(m.len(), m.len(), |i, j| m[i][j])
+}
+
+/// By rows.
+pub(crate) fn rows(m: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    (0..m.nrows()).map(|i| (0..m.ncols()).map(|j| m[(i, j)]).collect()).collect()
 }
 
 /// Eigenvalues of a symmetric matrix, ascending; NaN where an entry is not finite.
@@ -19,8 +25,7 @@ pub(crate) fn symmetric_eigenvalues(m: &[Vec<f64>]) -> Vec<f64> {
 
 /// Inverse of a square matrix; `None` where it is singular.
 pub(crate) fn inverse(m: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
-    let inverse = dense(m).try_inverse()?;
-    Some((0..m.len()).map(|i| (0..m.len()).map(|j| inverse[(i, j)]).collect()).collect())
+    Some(rows(&dense(m).try_inverse()?))
 }
 
 /// a b, by rows.

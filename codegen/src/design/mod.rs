@@ -1,18 +1,32 @@
-//! The numbers of the tracking law: gains, ΔC, ΔC1, switching, limits.
+//! The numbers of the tracking law and what they promise: gains, ΔC, ΔC1, switching, limits, guarantee.
 
-mod envelope;
+mod family;
 mod gains;
+mod guarantee;
+mod inertia;
 mod linalg;
+mod reach;
+mod region;
+#[cfg(test)]
+mod tests;
 
-pub use envelope::{Envelope, envelope};
+use std::path::Path;
+
+pub use family::{least_eigenvalue, outweighs, smallest_multiple};
 pub use gains::Gains;
-use linalg::symmetric_eigenvalues;
+pub use guarantee::Guarantee;
+pub use inertia::{Cell, Extremes, Inertia};
+pub use reach::{Envelope, InertiaBounds};
 
 use crate::arm::Arm;
 use crate::bounds::Bounds;
-use crate::check::vector;
-use crate::error::Error;
-use crate::spec::{ControlSpec, LawSpec, OnFaultSpec};
+use crate::check::{matrix, vector};
+use crate::dynamics::inverse_dynamics;
+use crate::error::{Error, Faults};
+use crate::lagrangian::Lagrangian;
+use crate::measure::Domain;
+use crate::motion::Motion;
+use crate::spec::{ControlSpec, CoriolisTermSpec, LawSpec, OnFaultSpec};
 
 /// Everything a controller needs beside its model.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,8 +39,12 @@ pub struct Design {
     pub envelope: Envelope,
     /// ΔC of equation (30), n×n, N·m·s/rad.
     pub delta_c: Vec<Vec<f64>>,
-    /// The k of ΔC1 = k·I: k* = λ_max(sym ΔC), N·m·s/rad.
+    /// k* = λ_max(sym ΔC), N·m·s/rad.
     pub k_star: f64,
+    /// The variant of (34).
+    pub coriolis_term: CoriolisTermSpec,
+    /// ΔC1, n×n: the specification's, which was verified, or k*·I.
+    pub delta_c1: Vec<Vec<f64>>,
     /// Bound on the Coulomb friction that the command does not cancel, by joint, N·m or N.
     pub disturbance: Vec<f64>,
     /// φ of the boundary layer by joint; `None` for the sign function.
@@ -39,22 +57,38 @@ pub struct Design {
     pub coulomb: Vec<[f64; 2]>,
     /// What to command when a measurement is not finite.
     pub on_fault: OnFaultSpec,
+    /// What all that promises.
+    pub guarantee: Guarantee,
 }
 
-/// Designs the law from the specification's gains, the bounds of the model and what the errors can reach.
+/// What a law is designed from.
+#[derive(Clone, Copy, Debug)]
+pub struct Problem<'a> {
+    /// The specification, which faults name.
+    pub file: &'a Path,
+    /// Its controller.
+    pub control: &'a ControlSpec,
+    /// The arm.
+    pub arm: &'a Arm,
+    /// The exact model.
+    pub lagrangian: &'a Lagrangian,
+    /// What the reduced model leaves out over the domain.
+    pub bounds: &'a Bounds,
+    /// Where the bounds hold.
+    pub domain: &'a Domain,
+    /// The desired motion.
+    pub motion: Option<&'a Motion>,
+}
+
+/// Designs the law and judges it.
 ///
 /// # Errors
+/// [`Error::Input`] where ΔC1 does not outweigh ΔC, the period is too long, or a required guarantee does not hold;
 /// [`Error::Internal`] where a matrix that was checked before turns out singular.
-pub fn design(
-    control: &ControlSpec,
-    arm: &Arm,
-    bounds: &Bounds,
-    envelope: Envelope,
-) -> Result<Design, Error> {
+pub fn design(problem: &Problem) -> Result<Design, Error> {
+    let Problem { file, control, arm, .. } = *problem;
     let n = arm.dof();
     let gains = Gains::new(control, n)?;
-    let delta_c = bounds.coriolis(&envelope.speed);
-    let k_star = symmetric_eigenvalues(&symmetric_part(&delta_c)).last().copied().unwrap_or(0.0).max(0.0);
     let coulomb = |joint: &crate::arm::Joint| {
         if control.compensate_coulomb { joint.coulomb_friction } else { [0.0; 2] }
     };
@@ -63,36 +97,111 @@ pub fn design(
         // Compensated for the wrong direction, it counts in full from one side to the other.
         if control.compensate_coulomb { forwards - backwards } else { forwards.max(-backwards) }
     };
+    let disturbance: Vec<f64> = arm.joints.iter().map(disturbance).collect();
     let layer = |phi| checked("control.boundary_layer", vector(phi, n));
     let boundary_layer = control.boundary_layer.as_ref().map(layer).transpose()?;
-    Ok(Design {
+    let initial = &control.initial_error;
+    let given = |m| checked("control.delta_c1", matrix(m, n));
+    let judgement = guarantee::Parts {
+        problem,
+        gains: &gains,
+        form: reach::Form::new(&gains)?,
+        disturbance: &disturbance,
+        layer: boundary_layer.as_deref(),
+        initial: [
+            checked("control.initial_error.position", vector(&initial.position, n))?,
+            checked("control.initial_error.velocity", vector(&initial.velocity, n))?,
+        ],
+        delta_c1: control.delta_c1.as_ref().map(given).transpose()?,
+    }
+    .judge()?;
+    let guarantee::Judgement { envelope, delta_c, k_star, delta_c1, guarantee } = judgement;
+    let design = Design {
         law: control.law,
         gains,
         envelope,
         delta_c,
         k_star,
-        disturbance: arm.joints.iter().map(disturbance).collect(),
+        coriolis_term: control.coriolis_term,
+        delta_c1,
+        disturbance,
         boundary_layer,
         period: control.period,
         torque_limit: arm.joints.iter().map(|joint| joint.limits.torque).collect(),
         coulomb: arm.joints.iter().map(coulomb).collect(),
         on_fault: control.on_fault,
-    })
+        guarantee,
+    };
+    let mut faults = Faults::of(file);
+    design.check(control, &mut faults);
+    faults.finish(design)
 }
 
 impl Design {
     /// True where everything that is computed is a finite number.
     pub fn is_finite(&self) -> bool {
-        let Envelope { v_max, position_error, velocity_error, speed } = &self.envelope;
+        let Envelope { v_max, position_error, velocity_error, speed, level } = &self.envelope;
         let lists = [position_error, velocity_error, speed].into_iter().chain(&self.delta_c);
-        self.gains.is_finite() && lists.flatten().chain([v_max, &self.k_star]).all(|v| v.is_finite())
+        self.gains.is_finite() && lists.flatten().chain([v_max, level, &self.k_star]).all(|v| v.is_finite())
     }
 
-    /// ΔC1 = k*·I, n×n by rows.
-    pub fn delta_c1(&self) -> Vec<Vec<f64>> {
-        let n = self.delta_c.len();
-        (0..n).map(|i| (0..n).map(|j| if i == j { self.k_star } else { 0.0 }).collect()).collect()
+    fn check(&self, control: &ControlSpec, faults: &mut Faults) {
+        let least = least_eigenvalue(&self.delta_c1, &self.delta_c);
+        if control.delta_c1.is_some() && !outweighs(least, &self.delta_c) {
+            faults.push(
+                "control.delta_c1",
+                format!(
+                    "does not outweigh ΔC: for some δC with |δC| ≤ ΔC the least eigenvalue of ΔC1 + sym(δC) is {least:.6}"
+                ),
+                format!(
+                    "add {:.6} to its diagonal, or leave it out for {:.6} times the identity",
+                    -least, self.k_star
+                ),
+            );
+        }
+        let promised = &self.guarantee;
+        if control.period >= promised.period_max && !control.allow_long_period {
+            faults.push(
+                "control.period",
+                format!(
+                    "is {} s, and the sampled loop is stable only below {:.4e} s",
+                    control.period, promised.period_max
+                ),
+                "shorten it, lower W, widen the boundary layer, or set `control.allow_long_period` and lose the guarantee",
+            );
+        } else if control.require_guarantee && !promised.holds {
+            let list = |x: &[f64]| x.iter().map(|e| format!("{e:.4}")).collect::<Vec<_>>().join(", ");
+            let tube = match &promised.tube_needed {
+                Some(tube) => format!("a tube of at least ({})", list(tube)),
+                None => "other gains: no tube was found to be enough".to_string(),
+            };
+            faults.push(
+                "control.require_guarantee",
+                format!("is set, and nothing is guaranteed: {}", promised.reasons.join("; ")),
+                format!(
+                    "take {tube}, or an initial position error of at most ({})",
+                    list(&promised.initial_error_max)
+                ),
+            );
+        }
     }
+}
+
+/// Instants at which the feedforward torque is looked at.
+const INSTANTS: u32 = 400;
+
+/// The most by which the torque along the motion itself changes during one period, by joint: what a held torque lags.
+fn lag(arm: &Arm, motion: &Motion, period: f64) -> Vec<f64> {
+    let step = motion.duration() / f64::from(INSTANTS);
+    let torque = |k: u32| -> Vec<f64> {
+        let target = motion.at(step * f64::from(k));
+        let torque = inverse_dynamics(arm, &target.q, &target.qd, &target.qdd);
+        let friction = arm.joints.iter().zip(&target.qd).map(|(joint, qd)| joint.viscous_friction * qd);
+        torque.iter().zip(friction).map(|(torque, friction)| torque + friction).collect()
+    };
+    let torques: Vec<Vec<f64>> = (0..=INSTANTS).map(torque).collect();
+    let most = |i: usize| torques.windows(2).map(|pair| (pair[1][i] - pair[0][i]).abs()).fold(0.0, f64::max);
+    (0..arm.dof()).map(|i| most(i) * period / step).collect()
 }
 
 /// What the specification's check has left in order.
@@ -101,9 +210,4 @@ impl Design {
 /// [`Error::Internal`] where it has not.
 pub(crate) fn checked<T>(field: &str, value: Option<T>) -> Result<T, Error> {
     value.ok_or_else(|| Error::Internal(format!("{field} has the wrong size after its check")))
-}
-
-fn symmetric_part(m: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let n = m.len();
-    (0..n).map(|i| (0..n).map(|j| 0.5 * (m[i][j] + m[j][i])).collect()).collect()
 }

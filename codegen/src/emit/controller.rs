@@ -4,11 +4,11 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::literal::{count, float, matrix, vector};
-use super::{Module, spaced};
+use super::{Module, docs, spaced};
 use crate::design::Design;
 use crate::error::Error;
 use crate::motion::Motion;
-use crate::spec::{LawSpec, OnFaultSpec};
+use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec};
 
 pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, Error> {
     let n = count(module.arm.dof());
@@ -21,7 +21,18 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
     let Some(design) = module.design else { return Ok(quote!(#reference)) };
     let settings = settings(design)?;
     let (law_type, law) = law(design)?;
+    let promised = &design.guarantee;
+    let guaranteed = promised.holds;
+    let guaranteed_docs = docs::guaranteed(promised);
+    let period_max = float(promised.period_max)?;
+    let final_error = vector(&promised.final_error)?;
     Ok(quote! {
+        #(#[doc = #guaranteed_docs])*
+        pub const GUARANTEED: bool = #guaranteed;
+        /// Periods below this keep the sampled loop stable over the domain, s.
+        pub const PERIOD_MAX: f64 = #period_max;
+        /// What |q − q_d| ends below where [`GUARANTEED`], by joint, rad or m.
+        pub const FINAL_ERROR: [f64; #n] = #final_error;
         /// Period, torque limits and fault policy.
         pub const SETTINGS: ::gramforge_runtime::Settings<f64, #n> = #settings;
         /// The tracking law with its gains.
@@ -66,30 +77,45 @@ fn law(design: &Design) -> Result<(TokenStream, TokenStream), Error> {
     let pqq = matrix(&design.gains.pqq)?;
     let gains = quote!(::gramforge_runtime::Gains { p12: #p12, damping: #damping, pqq: #pqq });
     let coulomb = matrix(&design.coulomb)?;
+    let disturbance = vector(&design.disturbance)?;
+    let switching = match &design.boundary_layer {
+        None => quote!(::gramforge_runtime::Switching::Sign),
+        Some(phi) => {
+            let phi = vector(phi)?;
+            quote!(::gramforge_runtime::Switching::BoundaryLayer(#phi))
+        }
+    };
     Ok(match design.law {
         LawSpec::Exact => {
             (quote!(ExactLaw), quote!(::gramforge_runtime::ExactLaw { gains: #gains, coulomb: #coulomb }))
         }
         LawSpec::Report => {
             let delta_c = matrix(&design.delta_c)?;
-            let delta_c1 = matrix(&design.delta_c1())?;
-            let disturbance = vector(&design.disturbance)?;
-            let switching = match &design.boundary_layer {
-                None => quote!(::gramforge_runtime::Switching::Sign),
-                Some(phi) => {
-                    let phi = vector(phi)?;
-                    quote!(::gramforge_runtime::Switching::BoundaryLayer(#phi))
+            let term = match design.coriolis_term {
+                CoriolisTermSpec::Matrix => {
+                    let delta_c1 = matrix(&design.delta_c1)?;
+                    quote!(::gramforge_runtime::CoriolisTerm::Matrix(#delta_c1))
                 }
+                CoriolisTermSpec::Switching => quote!(::gramforge_runtime::CoriolisTerm::Switching),
             };
             let law = quote!(::gramforge_runtime::ReportLaw {
                 gains: #gains,
                 delta_c: #delta_c,
-                delta_c1: #delta_c1,
+                coriolis_term: #term,
                 disturbance: #disturbance,
                 switching: #switching,
                 coulomb: #coulomb,
             });
             (quote!(ReportLaw), law)
+        }
+        LawSpec::Tight => {
+            let law = quote!(::gramforge_runtime::TightLaw {
+                gains: #gains,
+                disturbance: #disturbance,
+                switching: #switching,
+                coulomb: #coulomb,
+            });
+            (quote!(TightLaw), law)
         }
     })
 }

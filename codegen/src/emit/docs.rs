@@ -1,6 +1,7 @@
 //! Words in a module: the header and the model's documentation.
 
 use super::Module;
+use crate::design::Guarantee;
 use crate::measure::Domain;
 
 /// Comments above the code. Without time, path or machine, so that the same specification gives the same bytes.
@@ -47,6 +48,23 @@ pub(super) fn model(module: &Module) -> Vec<String> {
         ));
     } else {
         lines.push(" Nothing is left out, so the bounds are zero everywhere.".to_string());
+    }
+    lines
+}
+
+/// Documentation of the guarantee, a line each.
+pub(super) fn guaranteed(guarantee: &Guarantee) -> Vec<String> {
+    let list = |x: &[f64]| x.iter().map(|e| format!("{e:.6}")).collect::<Vec<_>>().join(", ");
+    let mut lines = vec![
+        " Whether the joints stay inside the domain of the bounds from every initial error specified, while no torque"
+            .to_string(),
+        " limit cuts the command.".to_string(),
+        String::new(),
+        format!(" Largest initial position error for which that domain is enough: ({}).", list(&guarantee.initial_error_max)),
+    ];
+    if !guarantee.holds {
+        lines.extend([String::new(), " Not guaranteed, because:".to_string()]);
+        lines.extend(guarantee.reasons.iter().map(|reason| format!(" - {reason}")));
     }
     lines
 }

@@ -35,5 +35,7 @@ fn law_name(law: LawSpec, boundary_layer: bool) -> &'static str {
         (LawSpec::Exact, _) => "law (16)",
         (LawSpec::Report, false) => "law (34), sign function",
         (LawSpec::Report, true) => "law (34), boundary layer",
+        (LawSpec::Tight, false) => "tight law, sign function",
+        (LawSpec::Tight, true) => "tight law, boundary layer",
     }
 }

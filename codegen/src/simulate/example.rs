@@ -6,7 +6,7 @@ use super::{Comparison, Scenario, simulate};
 use crate::arm::{Arm, Body, Joint, JointKind, Limits, Transform};
 use crate::body::{expanded, recursive};
 use crate::bounds::{Bounds, Effort, certified};
-use crate::design::{Design, Gains, design, envelope};
+use crate::design::{Design, Problem, design};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::lagrangian::expand;
@@ -14,7 +14,8 @@ use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::reduction::shared;
 use crate::spec::{
-    ControlSpec, InitialErrorSpec, LawSpec, MatrixSpec, OnFaultSpec, SimulationSpec, VectorSpec,
+    ControlSpec, CoriolisTermSpec, InitialErrorSpec, LawSpec, MatrixSpec, OnFaultSpec, SimulationSpec,
+    VectorSpec,
 };
 
 /// A link: α (quarter turns), a, d, mass, diagonal of the pseudo-inertia, first moment, in its standard frame.
@@ -45,9 +46,9 @@ impl Example {
         let motion = Motion::Quintic { from: from.to_vec(), to: to.to_vec(), duration: 5.0 };
         let tube = Domain::Tube(vec![0.05; n]);
         let measure = Measure::new(&tube, Some(&motion), &arm);
+        let lagrangian = expand(&arm);
         let (code, bounds) = match functions {
             Some(functions) => {
-                let lagrangian = expand(&arm);
                 let reduced = shared(&lagrangian, &measure, functions);
                 let proofs = certified(&lagrangian, &reduced, &tube, Some(&motion), &Effort::default());
                 let deltas: Vec<f64> = proofs.iter().map(|proof| proof.bound).collect();
@@ -70,13 +71,23 @@ impl Example {
                 position: VectorSpec::Scalar(0.2),
                 velocity: VectorSpec::Scalar(0.0),
             },
+            coriolis_term: CoriolisTermSpec::Matrix,
+            delta_c1: None,
+            allow_long_period: true,
+            require_guarantee: false,
             compensate_coulomb: false,
             on_fault: OnFaultSpec::Hold,
         };
-        let gains = Gains::new(&control, n).unwrap();
-        let speed = motion.largest_speed();
-        let envelope = envelope(&arm, &speed, &measure.points, &gains, &control.initial_error).unwrap();
-        let design = design(&control, &arm, &bounds, envelope).unwrap();
+        let design = design(&Problem {
+            file: Path::new("example.json"),
+            control: &control,
+            arm: &arm,
+            lagrangian: &lagrangian,
+            bounds: &bounds,
+            domain: &tube,
+            motion: Some(&motion),
+        })
+        .unwrap();
         let initial = control.initial_error;
         Self { arm, motion, design, code, bounds, initial, simulation: SimulationSpec::default() }
     }

@@ -12,7 +12,7 @@ mod run;
 
 use std::path::Path;
 
-use gramforge_runtime::law::{ExactLaw, Gains, ReportLaw, Switching};
+use gramforge_runtime::law::{CoriolisTerm, ExactLaw, Gains, ReportLaw, Switching, TightLaw};
 use gramforge_runtime::simulate::JointState;
 use gramforge_runtime::{ConfigError, OnFault, Settings};
 use serde::Serialize;
@@ -31,7 +31,7 @@ use crate::design::{Design, checked};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::motion::Motion;
-use crate::spec::{InitialErrorSpec, LawSpec, OnFaultSpec, SimulationSpec, VectorSpec};
+use crate::spec::{CoriolisTermSpec, InitialErrorSpec, LawSpec, OnFaultSpec, SimulationSpec, VectorSpec};
 
 /// Runge–Kutta steps a control period, where the specification names none.
 const SUBSTEPS: usize = 10;
@@ -97,7 +97,10 @@ fn compare<const N: usize>(scenario: &Scenario) -> Result<Comparison, Error> {
     let robust = ReportLaw {
         gains: rig.gains,
         delta_c: matrix("ΔC", &design.delta_c)?,
-        delta_c1: matrix("ΔC1", &design.delta_c1())?,
+        coriolis_term: match design.coriolis_term {
+            CoriolisTermSpec::Matrix => CoriolisTerm::Matrix(matrix("ΔC1", &design.delta_c1)?),
+            CoriolisTermSpec::Switching => CoriolisTerm::Switching,
+        },
         disturbance: vector("the disturbance", &design.disturbance)?,
         switching: match &design.boundary_layer {
             Some(phi) => Switching::BoundaryLayer(vector("the boundary layer", phi)?),
@@ -105,11 +108,14 @@ fn compare<const N: usize>(scenario: &Scenario) -> Result<Comparison, Error> {
         },
         coulomb: plain.coulomb,
     };
+    let ReportLaw { gains, disturbance, switching, coulomb, .. } = robust;
+    let tight = TightLaw { gains, disturbance, switching, coulomb };
     let (exact, law) = rayon::join(
         || rig.run(rig.arm, plain),
         || match design.law {
             LawSpec::Exact => rig.run(model, plain),
             LawSpec::Report => rig.run(model, robust),
+            LawSpec::Tight => rig.run(model, tight),
         },
     );
     let refuse = |error: ConfigError| {

@@ -3,18 +3,24 @@
 //! A law's numbers are a plain struct of public fields that a `const` can hold; whatever it learns lies apart in its
 //! [`Law::State`].
 
+mod coriolis_term;
 mod exact;
 mod gains;
 mod lyapunov;
 mod report;
 mod switching;
+#[cfg(test)]
+mod test_states;
+mod tight;
 mod tracking;
 
+pub use coriolis_term::CoriolisTerm;
 pub use exact::ExactLaw;
 pub use gains::Gains;
 pub use lyapunov::lyapunov;
 pub use report::ReportLaw;
 pub use switching::Switching;
+pub use tight::TightLaw;
 pub use tracking::Tracking;
 
 use crate::reference::Desired;

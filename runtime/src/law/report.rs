@@ -3,11 +3,14 @@
 use core::array::from_fn;
 
 use super::exact::feedforward_and_feedback;
-use super::{Gains, Law, Sample, Switching, Tracking, check_coulomb, check_nonnegative, check_symmetric};
+use super::{
+    CoriolisTerm, Gains, Law, Sample, Switching, Tracking, check_coulomb, check_nonnegative, check_symmetric,
+};
 use crate::vector::{abs, add, mat_vec};
 use crate::{ConfigError, Model, Real};
 
 /// Equation (16) with a simplified model, less ΔC1 s and a switching term that outweighs what the model leaves out:
+/// with [`CoriolisTerm::Switching`] ΔC|s| stands in its bracket and ΔC1 s falls away.
 ///
 /// − diag(sgn s) \[ΔD(|q̈_d| + P12|q̇_e|) + (ΔB + ΔC)|q̇| + ΔG + disturbance\].
 ///
@@ -18,9 +21,8 @@ pub struct ReportLaw<T, const N: usize> {
     pub gains: Gains<T, N>,
     /// ΔC of equation (30), by rows, N·m·s/rad: see [`Bounds::coriolis`](crate::Bounds::coriolis).
     pub delta_c: [[T; N]; N],
-    /// ΔC1, by rows, N·m·s/rad: symmetric, and ΔC1 + sym(δC) positive definite for every |δC| ≤ ΔC, which k·I is for
-    /// every k > λ_max(sym ΔC).
-    pub delta_c1: [[T; N]; N],
+    /// What outweighs −sᵀ δC s: −ΔC1 s, or more switching.
+    pub coriolis_term: CoriolisTerm<T, N>,
     /// Bound on torques that no model has, such as Coulomb friction: added to ΔG, N·m, not negative.
     pub disturbance: [T; N],
     /// sgn, or the boundary layer.
@@ -46,7 +48,10 @@ impl<T: Real, const N: usize> ReportLaw<T, N> {
         let acceleration = add(&abs(&sample.desired.qdd), &mat_vec(&self.gains.p12, &abs(&tracking.qd_e)));
         let inertia = mat_vec(&bounds.d, &acceleration);
         let speed = abs(&sample.qd);
-        let coriolis = mat_vec(&self.delta_c, &speed);
+        let coriolis = match self.coriolis_term {
+            CoriolisTerm::Matrix(_) => mat_vec(&self.delta_c, &speed),
+            CoriolisTerm::Switching => mat_vec(&self.delta_c, &add(&speed, &abs(&tracking.s))),
+        };
         from_fn(|i| inertia[i] + bounds.b[i] * speed[i] + coriolis[i] + bounds.g[i] + self.disturbance[i])
     }
 }
@@ -59,7 +64,10 @@ impl<M: Model<N, Scalar = T>, T: Real, const N: usize> Law<M, N> for ReportLaw<T
     fn torque(&self, model: &M, _state: &mut (), sample: &Sample<T, N>) -> [T; N] {
         let tracking = Tracking::new(&self.gains.p12, sample);
         let nominal = feedforward_and_feedback(model, &self.gains, &self.coulomb, sample, &tracking);
-        let damping = mat_vec(&self.delta_c1, &tracking.s);
+        let damping = match &self.coriolis_term {
+            CoriolisTerm::Matrix(delta_c1) => mat_vec(delta_c1, &tracking.s),
+            CoriolisTerm::Switching => [T::ZERO; N],
+        };
         let size = self.bracket(model, sample, &tracking);
         let side = self.switching.at(&tracking.s);
         from_fn(|i| nominal[i] - damping[i] - side[i] * size[i])
@@ -68,7 +76,9 @@ impl<M: Model<N, Scalar = T>, T: Real, const N: usize> Law<M, N> for ReportLaw<T
     fn check(&self) -> Result<(), ConfigError> {
         self.gains.check()?;
         check_nonnegative("delta_c", &self.delta_c)?;
-        check_symmetric("delta_c1", &self.delta_c1)?;
+        if let CoriolisTerm::Matrix(delta_c1) = &self.coriolis_term {
+            check_symmetric("delta_c1", delta_c1)?;
+        }
         check_nonnegative("disturbance", &self.disturbance.map(|x| [x; N]))?;
         self.switching.check()?;
         check_coulomb(&self.coulomb)
@@ -78,17 +88,9 @@ impl<M: Model<N, Scalar = T>, T: Real, const N: usize> Law<M, N> for ReportLaw<T
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::law::lyapunov;
-    use crate::simulate::{Plant, RigidPlant};
+    use crate::law::test_states::{GAINS, excess, states};
     use crate::test_arm::TwoLink;
-    use crate::vector::{along, dot};
     use crate::{Desired, ExactLaw};
-
-    const GAINS: Gains<f64, 2> = Gains {
-        p12: [[3.0, 1.0], [1.0, 3.0]],
-        damping: [[5.0 + 5.5 / 8.0, -0.5 / 8.0], [-0.5 / 8.0, 5.0 + 5.5 / 8.0]],
-        pqq: [[2.0, 0.5], [0.5, 2.0]],
-    };
 
     /// The law for the perturbed arm, at joint speeds up to `speed`.
     fn law(speed: f64, switching: Switching<f64, 2>) -> ReportLaw<f64, 2> {
@@ -98,67 +100,22 @@ mod tests {
         ReportLaw {
             gains: GAINS,
             delta_c,
-            delta_c1: [[k, 0.0], [0.0, k]],
+            coriolis_term: CoriolisTerm::Matrix([[k, 0.0], [0.0, k]]),
             disturbance: [0.0; 2],
             switching,
             coulomb: [[0.0; 2]; 2],
         }
     }
 
-    fn states() -> impl Iterator<Item = Sample<f64, 2>> {
-        (0..4000_u32).map(|k| {
-            // An additive recurrence with irrational steps fills the box evenly.
-            let at = |i: u32, half: f64| {
-                let x = f64::from(k + 1) * f64::from(i).sqrt();
-                half * (2.0 * (x - x.floor()) - 1.0)
-            };
-            Sample {
-                q: [at(2, 3.0), at(3, 3.0)],
-                qd: [at(5, 3.0), at(7, 3.0)],
-                desired: Desired {
-                    q: [at(11, 3.0), at(13, 3.0)],
-                    qd: [at(17, 3.0), at(19, 3.0)],
-                    qdd: [at(23, 4.0), at(29, 4.0)],
-                },
-                period: 1e-3,
-            }
-        })
-    }
-
-    /// V̇ + zᵀ M z, (17), under a law that knows the perturbed arm and drives the true one.
-    fn excess(law: &impl Law<TwoLink<f64>, 2, State = ()>, sample: &Sample<f64, 2>) -> f64 {
-        let arm = TwoLink::<f64>::EXAMPLE;
-        let plant = RigidPlant { model: arm, coulomb: [[0.0; 2]; 2] };
-        let torque = law.torque(&TwoLink::perturbed(), &mut (), sample);
-        let qdd = plant.acceleration(&sample.q, &sample.qd, &torque).unwrap();
-        let h = 1e-5;
-        let shifted = |h: f64| {
-            let desired = &sample.desired;
-            let moved = Sample {
-                q: along(&sample.q, h, &sample.qd),
-                qd: along(&sample.qd, h, &qdd),
-                desired: Desired {
-                    q: along(&desired.q, h, &desired.qd),
-                    qd: along(&desired.qd, h, &desired.qdd),
-                    qdd: desired.qdd,
-                },
-                period: sample.period,
-            };
-            lyapunov(&arm, &GAINS, &moved)
-        };
-        let Tracking { s, q_e, .. } = Tracking::new(&GAINS.p12, sample);
-        let omega_q_e = mat_vec(&GAINS.pqq, &mat_vec(&GAINS.p12, &q_e));
-        let form = dot(&s, &mat_vec(&GAINS.damping, &s)) - 2.0 * dot(&s, &mat_vec(&GAINS.pqq, &q_e))
-            + dot(&q_e, &omega_q_e);
-        (shifted(h) - shifted(-h)) / (2.0 * h) + form
-    }
-
     #[test]
     fn outweighs_every_error_inside_the_bounds() {
-        let robust = law(3.0, Switching::Sign);
-        Law::<TwoLink<f64>, 2>::check(&robust).unwrap();
-        let worst = states().map(|sample| excess(&robust, &sample)).fold(f64::MIN, f64::max);
-        assert!(worst < 1e-4, "V̇ exceeds −zᵀMz by {worst}");
+        for term in [None, Some(CoriolisTerm::Switching)] {
+            let robust = law(3.0, Switching::Sign);
+            let robust = ReportLaw { coriolis_term: term.unwrap_or(robust.coriolis_term), ..robust };
+            Law::<TwoLink<f64>, 2>::check(&robust).unwrap();
+            let worst = states().map(|sample| excess(&robust, &sample)).fold(f64::MIN, f64::max);
+            assert!(worst < 1e-4, "V̇ exceeds −zᵀMz by {worst}");
+        }
         // Without the robust terms the same model does exceed it.
         let plain = ExactLaw { gains: GAINS, coulomb: [[0.0; 2]; 2] };
         assert!(states().map(|sample| excess(&plain, &sample)).fold(f64::MIN, f64::max) > 1.0);
@@ -186,7 +143,7 @@ mod tests {
         let robust = ReportLaw {
             gains: Gains { p12: [[2.0, 0.0], [0.0, 2.0]], ..GAINS },
             delta_c: [[0.1, 0.2], [0.3, 0.4]],
-            delta_c1: [[0.5, 0.25], [0.25, 1.0]],
+            coriolis_term: CoriolisTerm::Matrix([[0.5, 0.25], [0.25, 1.0]]),
             disturbance: [0.0; 2],
             switching: Switching::Sign,
             coulomb: [[0.0; 2]; 2],

@@ -1,7 +1,7 @@
 use std::vec::Vec;
 
 use super::*;
-use crate::law::{ExactLaw, Gains, ReportLaw, Sample, Switching, lyapunov};
+use crate::law::{CoriolisTerm, ExactLaw, Gains, ReportLaw, Sample, Switching, lyapunov};
 use crate::simulate::RigidPlant;
 use crate::test_arm::TwoLink;
 use crate::{OnFault, QuinticReference, Settings};
@@ -27,7 +27,7 @@ fn report_law(switching: Switching<f64, 2>) -> ReportLaw<f64, 2> {
     ReportLaw {
         gains: GAINS,
         delta_c,
-        delta_c1: [[k, 0.0], [0.0, k]],
+        coriolis_term: CoriolisTerm::Matrix([[k, 0.0], [0.0, k]]),
         disturbance: [0.0; 2],
         switching,
         coulomb: FREE,
@@ -121,7 +121,7 @@ fn works_in_single_precision() {
     let law = ReportLaw {
         gains,
         delta_c: [[0.0; 2]; 2],
-        delta_c1: [[0.0; 2]; 2],
+        coriolis_term: CoriolisTerm::Matrix([[0.0; 2]; 2]),
         disturbance: [0.0; 2],
         switching: Switching::BoundaryLayer([0.1; 2]),
         coulomb: [[0.0; 2]; 2],

@@ -1,0 +1,237 @@
+//! What is promised of the closed loop, and why not where nothing is.
+
+use super::inertia::Inertia;
+use super::reach::{Course, Envelope, InertiaBounds, fastest, inertia_bounds, initial_level, total};
+use super::region::{cells, outside, reach, start, width};
+use super::{Problem, family};
+use crate::error::Error;
+use crate::spec::LawSpec;
+
+/// Halvings of the interval in which the largest initial error lies.
+const HALVINGS: u32 = 30;
+/// Rounds in which the smallest sufficient tube must close.
+const ROUNDS: usize = 6;
+
+/// The promises about a closed loop without torque limits, and whether they hold.
+///
+/// They are those of the continuous law, with the lag of a torque held for one period counted to first order; a period
+/// below `period_max` keeps the sampled loop stable at every frozen D of the domain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Guarantee {
+    /// Whether q stays inside the domain of the bounds from every initial error of the specification.
+    pub holds: bool,
+    /// Why not; empty where it holds.
+    pub reasons: Vec<String>,
+    /// Longest period with T (λ_max(D⁻¹K) + λ_max(P12)) < 2 over the domain, s; K is the whole gain on s, with ΔC1 and the
+    /// slope ρ/φ inside the layer. The sign function has no slope to count: its chatter counts in `final_error`.
+    pub period_max: f64,
+    /// What |q_e| ends below, by joint, rad or m.
+    pub final_error: Vec<f64>,
+    /// Largest initial position error for which the domain is enough, by joint, rad or m: the specification's own, or
+    /// the tube where it names none, scaled; the initial velocity error as specified.
+    pub initial_error_max: Vec<f64>,
+    /// Smallest tube that the errors never leave, by joint, rad or m, with the bounds of the present one; `None` where
+    /// none was found.
+    pub tube_needed: Option<Vec<f64>>,
+    /// Bounds on D over the domain.
+    pub inertia: InertiaBounds,
+}
+
+/// The bounds on D over the domain, the errors under the law, ΔC and ΔC1 that go with them, and the promises.
+pub(super) struct Judgement {
+    pub(super) envelope: Envelope,
+    pub(super) delta_c: Vec<Vec<f64>>,
+    pub(super) k_star: f64,
+    pub(super) delta_c1: Vec<Vec<f64>>,
+    pub(super) guarantee: Guarantee,
+}
+
+pub(super) struct Parts<'a> {
+    pub(super) problem: &'a Problem<'a>,
+    pub(super) gains: &'a super::Gains,
+    pub(super) form: super::reach::Form,
+    pub(super) disturbance: &'a [f64],
+    pub(super) layer: Option<&'a [f64]>,
+    /// Initial position and velocity error.
+    pub(super) initial: [Vec<f64>; 2],
+    pub(super) delta_c1: Option<Vec<Vec<f64>>>,
+}
+
+impl Parts<'_> {
+    pub(super) fn judge(self) -> Result<Judgement, Error> {
+        let Problem { arm, domain, motion, bounds, control, lagrangian, .. } = *self.problem;
+        let n = arm.dof();
+        let own = width(domain, n).unwrap_or(vec![0.0; n]);
+        let over = cells(domain, motion, &own);
+        let about = |width: &[f64]| Inertia::new(arm, lagrangian, &reach(&cells(domain, motion, width), n));
+        let wide: Vec<f64> = own.iter().zip(&self.initial[0]).map(|(a, b)| a.max(*b).max(1.0)).collect();
+        let inertia = about(&wide);
+        let facts = inertia_bounds(&inertia, over.clone(), self.gains, &self.form);
+        let [position, velocity] = &self.initial;
+        let level = |position: &[f64]| {
+            let cell = start(domain, motion, position);
+            initial_level(&inertia, self.gains, cell, position, velocity)
+        };
+        let course = self.course(&facts);
+        let v_max = level(position);
+        let settled = course.settle(v_max, position)?;
+        let mut reasons = Vec::new();
+        let envelope = match settled {
+            Some(envelope) => envelope,
+            None => {
+                reasons.push(
+                    "no level of V is found that the law keeps it below: raise W or Omega, or narrow the boundary layer".to_string(),
+                );
+                let (position_error, velocity_error) = course.errors(v_max, position)?;
+                let speed = course.speed.iter().zip(&velocity_error).map(|(d, e)| d + e).collect();
+                Envelope { v_max, level: v_max, position_error, velocity_error, speed }
+            }
+        };
+        let delta_c = bounds.coriolis(&envelope.speed);
+        let k_star = family::smallest_multiple(&delta_c);
+        let delta_c1 = self.delta_c1.clone().unwrap_or_else(|| family::multiple_of_identity(k_star, n));
+
+        let gain = course.gain(&envelope.position_error, &envelope.velocity_error, &delta_c);
+        let period_max = self.longest_period(&inertia, over, &delta_c1, &gain)?;
+        let final_error = course.final_error(&envelope, &delta_c)?;
+
+        if !facts.certified {
+            reasons.push("the bounds on D over the domain could not be certified".to_string());
+        }
+        if control.period >= period_max {
+            reasons.push(format!(
+                "the period of {} s is longer than the {period_max:.3e} s up to which the sampled loop is stable",
+                control.period
+            ));
+        }
+        if control.law != LawSpec::Exact && self.layer.is_none() && course.ball(&gain, true) > envelope.level
+        {
+            reasons.push(format!(
+                "the sign function, held for {} s, may raise V from {:.3e} J to {:.3e} J: take a boundary layer or a shorter period",
+                control.period,
+                envelope.level,
+                course.ball(&gain, true)
+            ));
+        }
+        let leaves = outside(domain, motion, arm, &envelope.position_error);
+        let tube_needed = if !facts.certified {
+            None
+        } else if leaves.is_empty() || width(domain, n).is_none() {
+            Some(envelope.position_error.clone())
+        } else {
+            self.smallest_tube(&inertia, &envelope, position)?
+        };
+        let inside = |share: f64, shape: &[f64]| -> Result<bool, Error> {
+            let scaled: Vec<f64> = shape.iter().map(|e| e * share).collect();
+            let settled = course.settle(level(&scaled), &scaled)?;
+            Ok(settled.is_some_and(|e| outside(domain, motion, arm, &e.position_error).is_empty()))
+        };
+        let initial_error_max = largest_share(&shape(position, &own), inside)?;
+        if !leaves.is_empty() {
+            reasons.push(leaves.join("; "));
+        }
+        let guarantee = Guarantee {
+            holds: reasons.is_empty(),
+            reasons,
+            period_max,
+            final_error,
+            initial_error_max,
+            tube_needed,
+            inertia: facts,
+        };
+        Ok(Judgement { envelope, delta_c, k_star, delta_c1, guarantee })
+    }
+
+    fn course<'b>(&'b self, inertia: &'b InertiaBounds) -> Course<'b> {
+        let Problem { arm, motion, bounds, control, .. } = *self.problem;
+        let limit = |of: fn(&crate::arm::Limits) -> Option<f64>| -> Vec<f64> {
+            arm.joints.iter().map(|joint| of(&joint.limits).unwrap_or(0.0)).collect()
+        };
+        Course {
+            law: control.law,
+            term: control.coriolis_term,
+            gains: self.gains,
+            form: &self.form,
+            bounds,
+            inertia,
+            speed: motion.map_or_else(|| limit(|l| l.velocity), |m| m.largest_speed()),
+            acceleration: motion.map_or_else(|| limit(|l| l.acceleration), |m| m.largest_acceleration()),
+            disturbance: self.disturbance,
+            layer: self.layer,
+            period: control.period,
+            lag: motion.map_or_else(|| vec![0.0; arm.dof()], |m| super::lag(arm, m, control.period)),
+        }
+    }
+
+    fn longest_period(
+        &self,
+        inertia: &Inertia,
+        over: Vec<super::inertia::Cell>,
+        delta_c1: &[Vec<f64>],
+        gain: &[f64],
+    ) -> Result<f64, Error> {
+        let control = self.problem.control;
+        let n = gain.len();
+        let robust = control.law != LawSpec::Exact;
+        let slope: Vec<f64> = match self.layer {
+            Some(phi) if robust => gain.iter().zip(phi).map(|(rho, phi)| rho / phi).collect(),
+            _ => vec![0.0; n],
+        };
+        let zero = vec![vec![0.0; n]; n];
+        let more = if self.has_matrix() { delta_c1 } else { &zero };
+        let pull = super::linalg::symmetric_eigenvalues(&self.gains.p12).last().copied().unwrap_or(0.0);
+        Ok(2.0 / (fastest(inertia, over, &total(&self.gains.damping, more, &slope))? + pull))
+    }
+
+    fn has_matrix(&self) -> bool {
+        let control = self.problem.control;
+        control.law == LawSpec::Report && control.coriolis_term == crate::spec::CoriolisTermSpec::Matrix
+    }
+
+    /// Widens the tube to the errors of the one before until it holds them.
+    fn smallest_tube(
+        &self,
+        inertia: &Inertia,
+        envelope: &Envelope,
+        start: &[f64],
+    ) -> Result<Option<Vec<f64>>, Error> {
+        let Problem { domain, motion, .. } = *self.problem;
+        let mut tube = envelope.position_error.clone();
+        for _ in 0..ROUNDS {
+            let facts = inertia_bounds(inertia, cells(domain, motion, &tube), self.gains, &self.form);
+            let Some(next) = self.course(&facts).settle(envelope.v_max, start)? else { return Ok(None) };
+            let next = next.position_error;
+            if facts.certified && next.iter().zip(&tube).all(|(a, b)| *a <= b * (1.0 + 1e-9)) {
+                return Ok(Some(next));
+            }
+            tube = next.iter().zip(&tube).map(|(a, b)| 1.02 * a.max(*b)).collect();
+        }
+        Ok(None)
+    }
+}
+
+/// The direction in which the initial error is scaled.
+fn shape(position: &[f64], width: &[f64]) -> Vec<f64> {
+    [position, width]
+        .into_iter()
+        .find(|s| s.iter().any(|e| *e > 0.0))
+        .map_or(vec![1.0; width.len()], <[f64]>::to_vec)
+}
+
+/// The largest multiple of `shape`, up to half a turn (3.14 m), for which `inside` holds.
+fn largest_share(
+    shape: &[f64],
+    inside: impl Fn(f64, &[f64]) -> Result<bool, Error>,
+) -> Result<Vec<f64>, Error> {
+    let most = std::f64::consts::PI / shape.iter().fold(0.0_f64, |m, e| m.max(*e));
+    let (mut good, mut bad) = (0.0, most);
+    if inside(most, shape)? {
+        good = most;
+    } else {
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (good + bad);
+            if inside(middle, shape)? { good = middle } else { bad = middle }
+        }
+    }
+    Ok(shape.iter().map(|e| e * good).collect())
+}

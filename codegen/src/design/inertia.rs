@@ -1,0 +1,207 @@
+//! Certified extremes over sets of positions of what grows or falls with D(q).
+//!
+//! Over a box around c, D(q) = D(c) + Σ_k ∂_kD(c) δ_k + R with |R_ij| ≤ ½ Σ_kl max|∂_k∂_l d_ij| w_k w_l, and
+//! −diag(g) ≼ R ≼ diag(g) with g_i = Σ_j |R_ij| √(d_ii/d_jj): scaled so that light joints are not charged for heavy
+//! ones. A function that is convex in D and monotone takes its largest value over the affine part at a vertex of the
+//! box, with diag(g) added or subtracted; subdivision does the rest.
+
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+
+use crate::arm::Arm;
+use crate::dynamics::{coriolis, mass_matrix};
+use crate::lagrangian::{Entry, Function, Lagrangian};
+
+/// A direction whose slope is below this fraction of D counts as remainder, which halves the vertices.
+const FLAT: f64 = 0.003;
+/// Rounding of D, its expansion and its eigenvalues, relative.
+const ROUNDING: f64 = 1e-9;
+
+/// A box of positions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cell {
+    /// Its middle, rad or m.
+    pub centre: Vec<f64>,
+    /// Half its sides, rad or m.
+    pub half: Vec<f64>,
+}
+
+/// The largest values over a set of cells, entry by entry.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Extremes {
+    /// What no position of the set exceeds; infinite where the search ended before it knew.
+    pub bound: Vec<f64>,
+    /// What some position attains.
+    pub seen: Vec<f64>,
+}
+
+/// D over boxes.
+pub struct Inertia<'a> {
+    arm: &'a Arm,
+    /// max|∂_k∂_l d_ij| at \[k n + l\]\[i n + j\].
+    curvature: Vec<Vec<f64>>,
+}
+
+struct Judged {
+    cell: Cell,
+    bound: Vec<f64>,
+    seen: Vec<f64>,
+    split: usize,
+    vertices: usize,
+}
+
+impl<'a> Inertia<'a> {
+    /// For cells inside |q_j| ≤ `reach`\[j\]; the reach matters for prismatic joints alone.
+    pub fn new(arm: &'a Arm, lagrangian: &Lagrangian, reach: &[f64]) -> Self {
+        let n = arm.dof();
+        let largest = |psi: &Function| -> f64 {
+            psi.power.iter().zip(reach).map(|(&p, q)| (0..p).fold(1.0, |m, _| m * q)).product()
+        };
+        // max|∂_k∂_l ψ| for every ψ.
+        let second = |psi: &Function, k: usize, l: usize| -> f64 {
+            let Some((once, first)) = psi.derivative(k) else { return 0.0 };
+            let Some((twice, factor)) = once.derivative(l) else { return 0.0 };
+            (first * factor).abs() * largest(&twice)
+        };
+        let mut curvature = vec![vec![0.0; n * n]; n * n];
+        for coefficient in &lagrangian.coefficients {
+            for place in &coefficient.places {
+                let Entry::D(i, j) = place.entry else { continue };
+                for (index, entries) in curvature.iter_mut().enumerate() {
+                    let bend = |(psi, value): &(usize, f64)| {
+                        value.abs() * second(&lagrangian.functions[*psi], index / n, index % n)
+                    };
+                    let sum: f64 = coefficient.terms.iter().map(bend).sum();
+                    entries[i * n + j] = sum;
+                    entries[j * n + i] = sum;
+                }
+            }
+        }
+        Self { arm, curvature }
+    }
+
+    /// The largest values over `cells` of the entries of `f`, each relative to what is attained within `tolerance` or
+    /// as near as looking at `budget` vertices allows.
+    ///
+    /// `f` gets matrices D⁻ ≼ D ≼ D⁺ at a vertex; each of its entries must be positive, convex in D, and either fall
+    /// with D and look at D⁻ or rise with D and look at D⁺. Where D⁻ is not positive definite it gives infinity.
+    pub fn largest(
+        &self,
+        cells: Vec<Cell>,
+        tolerance: f64,
+        budget: usize,
+        f: impl Fn(&DMatrix<f64>, &DMatrix<f64>) -> Vec<f64> + Sync,
+    ) -> Extremes {
+        let mut judged: Vec<Judged> = cells.into_par_iter().map(|cell| self.judge(cell, &f)).collect();
+        let mut spent: usize = judged.iter().map(|j| j.vertices).sum();
+        loop {
+            let seen = fold(&judged, |j| &j.seen);
+            let excess = |j: &Judged| {
+                j.bound.iter().zip(&seen).map(|(b, s)| b / s.max(f64::MIN_POSITIVE)).fold(0.0, f64::max)
+            };
+            let (mut open, closed): (Vec<Judged>, Vec<Judged>) =
+                judged.into_iter().partition(|j| excess(j) > 1.0 + tolerance);
+            let room = budget.saturating_sub(spent);
+            if open.is_empty() || room == 0 {
+                judged = open.into_iter().chain(closed).collect();
+                let widen = |bound: Vec<f64>| bound.iter().map(|b| b * (1.0 + ROUNDING)).collect();
+                return Extremes { bound: widen(fold(&judged, |j| &j.bound)), seen };
+            }
+            // Stable, so that the order never depends on threads; the worst first, where the budget runs short.
+            open.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
+            let mut children = Vec::new();
+            let mut planned = 0;
+            judged = closed;
+            for parent in open {
+                if planned >= room {
+                    judged.push(parent);
+                    continue;
+                }
+                planned += 2 * parent.vertices;
+                children.extend(halves(&parent));
+            }
+            let children: Vec<Judged> =
+                children.into_par_iter().map(|(cell, bound)| self.judge(cell, &f).within(&bound)).collect();
+            spent += children.iter().map(|j| j.vertices).sum::<usize>();
+            judged.extend(children);
+        }
+    }
+
+    fn judge(&self, cell: Cell, f: &impl Fn(&DMatrix<f64>, &DMatrix<f64>) -> Vec<f64>) -> Judged {
+        let n = self.arm.dof();
+        let rows = mass_matrix(self.arm, &cell.centre);
+        let centre = DMatrix::from_fn(n, n, |i, j| 0.5 * (rows[i][j] + rows[j][i]));
+        let scale = |i: usize, j: usize| libm::sqrt(centre[(i, i)] * centre[(j, j)]);
+        let mut rest = DMatrix::from_fn(n, n, |i, j| ROUNDING * scale(i, j));
+        let mut slopes = Vec::new();
+        let (mut split, mut most) = (0, -1.0);
+        for k in 0..n {
+            if cell.half[k] == 0.0 {
+                continue;
+            }
+            let unit: Vec<f64> = (0..n).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
+            let c = coriolis(self.arm, &cell.centre, &unit);
+            // ∂_k d_ij = h_ijk + h_jik.
+            let slope = DMatrix::from_fn(n, n, |i, j| cell.half[k] * (c[i][j] + c[j][i]));
+            let bend = DMatrix::from_fn(n, n, |i, j| {
+                let with = |l: usize| self.curvature[k * n + l][i * n + j] * cell.half[l];
+                0.5 * cell.half[k] * (0..n).map(with).sum::<f64>()
+            });
+            let size = |m: &DMatrix<f64>| -> f64 {
+                (0..n * n).map(|e| m[(e / n, e % n)].abs() / scale(e / n, e % n)).fold(0.0, f64::max)
+            };
+            let (steep, bent) = (size(&slope), size(&bend));
+            if steep + bent > most {
+                (split, most) = (k, steep + bent);
+            }
+            rest += bend;
+            if steep > FLAT {
+                slopes.push(slope);
+            } else {
+                rest += slope.abs();
+            }
+        }
+        let margin = |i: usize| -> f64 {
+            (0..n).map(|j| rest[(i, j)] * libm::sqrt(centre[(i, i)] / centre[(j, j)])).sum()
+        };
+        let margin = DMatrix::from_fn(n, n, |i, j| if i == j { margin(i) } else { 0.0 });
+        let vertices = 1_usize << slopes.len();
+        let mut bound: Vec<f64> = Vec::new();
+        for vertex in 0..vertices {
+            let mut d = centre.clone();
+            for (k, slope) in slopes.iter().enumerate() {
+                if vertex >> k & 1 == 1 { d -= slope } else { d += slope }
+            }
+            let values = f(&(&d - &margin), &(&d + &margin));
+            bound = if bound.is_empty() { values } else { larger(&bound, &values) };
+        }
+        Judged { seen: f(&centre, &centre), bound, cell, split, vertices }
+    }
+}
+
+impl Judged {
+    /// What held for the parent holds for its halves.
+    fn within(mut self, parent: &[f64]) -> Self {
+        self.bound.iter_mut().zip(parent).for_each(|(own, parent)| *own = own.min(*parent));
+        self
+    }
+}
+
+fn halves(parent: &Judged) -> Vec<(Cell, Vec<f64>)> {
+    let k = parent.split;
+    let side = |sign: f64| {
+        let mut cell = parent.cell.clone();
+        cell.half[k] *= 0.5;
+        cell.centre[k] += sign * cell.half[k];
+        (cell, parent.bound.clone())
+    };
+    vec![side(-1.0), side(1.0)]
+}
+
+fn larger(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a.max(*b)).collect()
+}
+
+fn fold(judged: &[Judged], of: impl Fn(&Judged) -> &Vec<f64>) -> Vec<f64> {
+    judged.iter().map(|j| of(j).clone()).reduce(|a, b| larger(&a, &b)).unwrap_or_default()
+}
