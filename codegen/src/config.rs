@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::bounds::Effort;
-use crate::error::{Error, Faults};
+use crate::error::{Error, Faults, Stale};
 use crate::load::load;
 use crate::output::{is_current, write_if_changed};
 use crate::pipeline::Generation;
@@ -84,17 +84,19 @@ impl Config {
     /// Compares every module with its file and writes nothing.
     ///
     /// # Errors
-    /// [`Error::Stale`] for the first file that differs or is missing; otherwise as [`Config::generate`].
+    /// [`Error::Stale`] with every file that differs or is missing; otherwise as [`Config::generate`].
     pub fn check(&self) -> Result<Vec<Output>, Error> {
         let outputs = self.build()?;
-        for (output, spec) in outputs.iter().zip(&self.specs) {
-            if !is_current(&output.path, &output.text) {
-                let folder = output.path.parent().unwrap_or(Path::new(".")).display().to_string();
+        let differing =
+            outputs.iter().zip(&self.specs).filter(|(output, _)| !is_current(&output.path, &output.text));
+        let stale: Vec<Stale> = differing
+            .map(|(output, spec)| {
+                let folder = output.path.parent().unwrap_or(Path::new(".")).display();
                 let command = format!("gramforge generate {} --out {folder}", spec.display());
-                return Err(Error::Stale { path: output.path.clone(), command });
-            }
-        }
-        Ok(outputs)
+                Stale { path: output.path.clone(), command }
+            })
+            .collect();
+        if stale.is_empty() { Ok(outputs) } else { Err(Error::Stale(stale)) }
     }
 
     /// [`Config::generate`] for a build script: tells cargo to run again when a specification or a file that

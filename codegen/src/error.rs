@@ -90,20 +90,24 @@ impl Faults {
     }
 }
 
+/// A generated file that is not what its specification gives.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Stale {
+    /// The file that differs or is missing.
+    pub path: PathBuf,
+    /// The command that mends it.
+    pub command: String,
+}
+
 /// Why a stage could not deliver.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The input is at fault: exit code 2.
     #[error("{}", list(.0))]
     Input(Vec<Fault>),
-    /// Generated files on disk differ from what the specification gives: exit code 1.
-    #[error("{path} is not what its specification gives; run `{command}`", path = path.display())]
-    Stale {
-        /// The file that differs or is missing.
-        path: PathBuf,
-        /// The command that mends it.
-        command: String,
-    },
+    /// Generated files on disk differ from what their specifications give: exit code 1.
+    #[error("{}", stale(.0))]
+    Stale(Vec<Stale>),
     /// A defect of Gramforge itself: exit code 3.
     #[error("internal error: {0}; please report it with the specification")]
     Internal(String),
@@ -113,7 +117,7 @@ impl Error {
     /// The process exit code that stands for this error: 1 check failed, 2 bad input, 3 internal.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Error::Stale { .. } => 1,
+            Error::Stale(_) => 1,
             Error::Input(_) => 2,
             Error::Internal(_) => 3,
         }
@@ -125,6 +129,13 @@ impl Error {
         faults.push(field, problem, mend);
         faults.into_error()
     }
+}
+
+fn stale(files: &[Stale]) -> String {
+    let line = |file: &Stale| {
+        format!("{} is not what its specification gives; run `{}`", file.path.display(), file.command)
+    };
+    files.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
 fn list(faults: &[Fault]) -> String {
