@@ -109,7 +109,7 @@ fn every_law_is_generated_and_tracks() {
             v["control"]["law"] = json!(law);
             v["control"]["coriolis_term"] = json!(term);
             v["control"]["boundary_layer"] = json!(0.4);
-            v["control"]["period"] = json!(0.002);
+            v["control"]["period"] = json!(0.001);
         })
         .unwrap();
         let text = generation.module().unwrap();
