@@ -132,7 +132,7 @@ impl Course<'_> {
         let s: Vec<f64> = self.inertia.mobility.iter().map(|m| libm::sqrt(2.0 * v * m)).collect();
         let length = |x: f64| libm::sqrt(2.0 * v / self.inertia.least) / x;
         let slowest = dense(p12).symmetric_eigenvalues().min();
-        let together = start.iter().map(|e| e * e).sum::<f64>().sqrt().max(length(slowest));
+        let together = libm::sqrt(start.iter().map(|e| e * e).sum()).max(length(slowest));
         let position: Vec<f64> = (0..n)
             .map(|i| {
                 let level = libm::sqrt(2.0 * v * compliance[i][i]);
