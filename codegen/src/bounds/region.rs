@@ -94,7 +94,8 @@ impl<'a> Region<'a> {
             out.centre[i] = 0.5 * (cell.low[i] + cell.high[i]);
             // Rounding of the centre stays inside a hair of extra width.
             let width = 0.5 * (cell.high[i] - cell.low[i]);
-            out.width[i] = if width > 0.0 { width + 4.0 * f64::EPSILON * cell.high[i].abs().max(width) } else { 0.0 };
+            out.width[i] =
+                if width > 0.0 { width + 4.0 * f64::EPSILON * cell.high[i].abs().max(width) } else { 0.0 };
         }
         if let Some(motion) = self.motion {
             let (t0, t1) = (cell.low[k], cell.high[k]);
@@ -112,6 +113,17 @@ impl<'a> Region<'a> {
             out.total[i] = out.width[i] + out.speed[i].abs() * out.half + out.off[i];
         }
         out
+    }
+
+    /// Time and position of all joints at the variables `x`; joints that do not matter stand where the motion wants
+    /// them, or at 0.
+    pub fn position(&self, dof: usize, x: &[f64]) -> (Option<f64>, Vec<f64>) {
+        let time = self.motion.and(x.get(self.joints.len()).copied());
+        let mut q = self.motion.map_or(vec![0.0; dof], |motion| motion.at(time.unwrap_or(0.0)).q);
+        for (&j, e) in self.joints.iter().zip(x) {
+            q[j] += e;
+        }
+        (time, q)
     }
 
     /// The cell that is the point with the given variables.

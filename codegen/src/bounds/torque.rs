@@ -91,7 +91,8 @@ pub fn torque_error(
             let mut parts = Vec::new();
             for (m, residual) in residuals.iter().enumerate() {
                 let Some(residual) = residual.as_ref().filter(|_| multipliers[m] > 0.0) else { continue };
-                extra += multipliers[m] * rounding::published(lagrangian, m, &reduced.combinations[m], &reach);
+                extra +=
+                    multipliers[m] * rounding::published(lagrangian, m, &reduced.combinations[m], &reach);
                 let cap = certificates[m].bound;
                 parts.push(Part { residual, multiplier: multipliers[m], cap });
             }
@@ -167,7 +168,8 @@ fn enclose(parts: &[Part], region: &Region, cell: &Cell, scratch: &mut Scratch) 
         votes[variable] += (worse.upper - jet.value.abs()) * part.multiplier;
     }
     let splittable = |i: usize| cell.high[i] > cell.low[i];
-    let split = (0..region.variables())
-        .fold(0, |best, i| if splittable(i) && (votes[i] > votes[best] || !splittable(best)) { i } else { best });
+    let split = (0..region.variables()).fold(0, |best, i| {
+        if splittable(i) && (votes[i] > votes[best] || !splittable(best)) { i } else { best }
+    });
     (centre, upper, split)
 }

@@ -89,7 +89,12 @@ pub(super) fn distinct(dof: usize, entries: Vec<(Entry, Expansion)>, truncation:
             places,
         })
         .collect();
-    Lagrangian { dof, functions: functions.into_iter().collect(), coefficients, truncation: truncation + merged }
+    Lagrangian {
+        dof,
+        functions: functions.into_iter().collect(),
+        coefficients,
+        truncation: truncation + merged,
+    }
 }
 
 /// Turns the coefficient so that its largest term, the first of equal ones, is positive: then sums rarely begin with

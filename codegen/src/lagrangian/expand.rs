@@ -129,7 +129,8 @@ fn significant(columns: Vec<Vec<(Function, f64)>>, threshold: f64) -> (Vec<Expan
         column.iter().map(|(_, k)| k.abs()).filter(|&k| k <= threshold).sum()
     };
     let dropped = columns.iter().map(lost).fold(0.0, f64::max);
-    let keep = |column: Vec<(Function, f64)>| column.into_iter().filter(|(_, k)| k.abs() > threshold).collect();
+    let keep =
+        |column: Vec<(Function, f64)>| column.into_iter().filter(|(_, k)| k.abs() > threshold).collect();
     (columns.into_iter().map(keep).collect(), dropped)
 }
 

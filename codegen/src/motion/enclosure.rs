@@ -63,8 +63,7 @@ impl Motion {
     pub fn reach(&self) -> Reach {
         const INTERVALS: u32 = 256;
         let n = self.dof();
-        let mut out =
-            Reach { position: vec![0.0; n], speed: vec![0.0; n], acceleration: vec![0.0; n] };
+        let mut out = Reach { position: vec![0.0; n], speed: vec![0.0; n], acceleration: vec![0.0; n] };
         let half = 0.5 * self.duration() / f64::from(INTERVALS);
         for k in 0..INTERVALS {
             let middle = half * f64::from(2 * k + 1);
