@@ -8,19 +8,35 @@ use crate::spread::Spread;
 /// Steps of one ascent at most.
 const STEPS: usize = 40;
 
-/// The largest |f| found from `starts` points spread over the region.
-pub fn search(residual: &Residual, region: &Region, starts: usize, scratch: &mut Scratch) -> f64 {
+/// A large |f| and the variables where it stands.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Summit {
+    /// |f|.
+    pub height: f64,
+    /// Joint variables, then time.
+    pub x: Vec<f64>,
+}
+
+impl Summit {
+    /// The higher of two; this one where they tie.
+    pub fn or(self, other: Self) -> Self {
+        if other.height > self.height { other } else { self }
+    }
+}
+
+/// The largest |f| found from at least one and `starts` points spread over the region.
+pub fn search(residual: &Residual, region: &Region, starts: usize, scratch: &mut Scratch) -> Summit {
     let variables = region.variables();
     if variables == 0 {
         return climb(residual, region, &[], scratch);
     }
     let spread = Spread::new(variables);
-    let mut best = 0.0_f64;
-    for start in 0..starts {
+    let mut best = Summit { height: -1.0, x: Vec::new() };
+    for start in 0..starts.max(1) {
         let unit = spread.point(start);
         let at = |i: usize| region.root.low[i] + unit[i] * (region.root.high[i] - region.root.low[i]);
         let x: Vec<f64> = (0..variables).map(at).collect();
-        best = best.max(climb(residual, region, &x, scratch));
+        best = best.or(climb(residual, region, &x, scratch));
     }
     best
 }
@@ -28,7 +44,7 @@ pub fn search(residual: &Residual, region: &Region, starts: usize, scratch: &mut
 /// The largest |f| on the way up from the variables `start`.
 ///
 /// Each step maximises the separate quadratics of the variables inside a trust box that halves after a failure.
-pub fn climb(residual: &Residual, region: &Region, start: &[f64], scratch: &mut Scratch) -> f64 {
+pub fn climb(residual: &Residual, region: &Region, start: &[f64], scratch: &mut Scratch) -> Summit {
     let variables = start.len();
     let root = &region.root;
     let mut x = start.to_vec();
@@ -59,7 +75,7 @@ pub fn climb(residual: &Residual, region: &Region, start: &[f64], scratch: &mut 
             break;
         }
     }
-    at.jet.value.abs()
+    Summit { height: at.jet.value.abs(), x }
 }
 
 /// f at a point, with slope and curvature along each variable.

@@ -4,18 +4,18 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use super::Effort;
-use super::ascent::{climb, search};
+use super::ascent::{Summit, climb, search};
 use super::polynomial::Scratch;
 use super::region::{Cell, Region};
 use super::residual::Residual;
 
 /// What branch and bound proves.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Proof {
     /// |f| exceeds this nowhere.
     pub upper: f64,
-    /// |f| reaches this somewhere.
-    pub found: f64,
+    /// The largest |f| that was found.
+    pub found: Summit,
     /// Cells enclosed.
     pub boxes: usize,
 }
@@ -39,24 +39,26 @@ pub fn maximum(residual: &Residual, region: &Region, effort: &Effort, floor: f64
         let fine = found * (1.0 + effort.tolerance);
         if found <= floor { fine.max(1.5 * found.max(f64::MIN_POSITIVE)) } else { fine }
     };
+    let budget = effort.budget(residual.polynomial.terms().count());
     let mut heap = BinaryHeap::new();
-    let (mut boxes, mut settled) = (0, found);
-    let mut enter = |heap: &mut BinaryHeap<Waiting>, found: &mut f64, cell: Cell, sign: f64, parent: f64| {
-        boxes += 1;
-        let narrowed = residual.narrow(region, cell, sign, &mut scratch);
-        let Some((cell, enclosure)) = narrowed else { return boxes };
-        if sign * enclosure.centre > *found {
-            let centre: Vec<f64> = middle(&cell, region.variables());
-            *found = found.max(climb(residual, region, &centre, &mut scratch));
-        }
-        let upper = enclosure.upper.min(parent);
-        if upper <= near(*found) {
-            settled = settled.max(upper);
-        } else {
-            heap.push(Waiting { upper, number: boxes, sign, split: enclosure.split, cell });
-        }
-        boxes
-    };
+    let (mut boxes, mut settled) = (0, found.height);
+    let mut enter =
+        |heap: &mut BinaryHeap<Waiting>, found: &mut Summit, cell: Cell, sign: f64, parent: f64| {
+            boxes += 1;
+            let narrowed = residual.narrow(region, cell, sign, &mut scratch);
+            let Some((cell, enclosure)) = narrowed else { return boxes };
+            if sign * enclosure.centre > found.height {
+                let centre: Vec<f64> = middle(&cell, region.variables());
+                *found = std::mem::take(found).or(climb(residual, region, &centre, &mut scratch));
+            }
+            let upper = enclosure.upper.min(parent);
+            if upper <= near(found.height) {
+                settled = settled.max(upper);
+            } else {
+                heap.push(Waiting { upper, number: boxes, sign, split: enclosure.split, cell });
+            }
+            boxes
+        };
     let mut count = 0;
     for sign in [1.0, -1.0] {
         count = enter(&mut heap, &mut found, region.root, sign, f64::INFINITY);
@@ -64,7 +66,7 @@ pub fn maximum(residual: &Residual, region: &Region, effort: &Effort, floor: f64
     let mut open = 0.0;
     while let Some(top) = heap.pop() {
         // Where a cell has become a point, only rounding stands between the two bounds.
-        if top.upper <= near(found) || count >= effort.boxes || !divisible(&top.cell, top.split) {
+        if top.upper <= near(found.height) || count >= budget || !divisible(&top.cell, top.split) {
             open = top.upper;
             break;
         }
@@ -72,7 +74,7 @@ pub fn maximum(residual: &Residual, region: &Region, effort: &Effort, floor: f64
             count = enter(&mut heap, &mut found, cell, top.sign, top.upper);
         }
     }
-    Proof { upper: settled.max(open).max(found), found, boxes: count }
+    Proof { upper: settled.max(open).max(found.height), found, boxes: count }
 }
 
 /// The centre of a cell.

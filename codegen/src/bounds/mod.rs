@@ -33,12 +33,16 @@ use residual::Residual;
 /// A residual below this fraction of its coefficient's Σ|k_l| need not be bounded more sharply than by half.
 const FLOOR: f64 = 1e-6;
 
+/// Terms of a residual beyond which its boxes grow fewer.
+pub const LONG: usize = 1000;
+
 /// How much work a certificate may take.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
     /// Where bound and largest value found differ by less than this fraction, branch and bound stops.
     pub tolerance: f64,
-    /// Boxes for each coefficient; when they are spent, the bound found so far stands.
+    /// Boxes for each residual of up to [`LONG`] terms, for longer ones accordingly fewer; when they are spent, the
+    /// bound found so far stands. A box that waits takes 200 bytes.
     pub boxes: usize,
     /// Starts of the search from below.
     pub starts: usize,
@@ -47,17 +51,28 @@ pub struct Effort {
 impl Default for Effort {
     /// What generation spends.
     fn default() -> Self {
-        Self { tolerance: 0.01, boxes: 20_000, starts: 12 }
+        Self { tolerance: 0.01, boxes: 100_000, starts: 12 }
+    }
+}
+
+impl Effort {
+    /// Boxes for a residual of `terms` terms.
+    fn budget(&self, terms: usize) -> usize {
+        if terms > LONG { self.boxes / terms.div_ceil(LONG) } else { self.boxes }
     }
 }
 
 /// A bound on one coefficient, and how sharp it is.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Certificate {
     /// |α_m − α̂_m| exceeds this nowhere in the domain, evaluation in f64 included.
     pub bound: f64,
     /// The largest |α_m − α̂_m| that a search found.
     pub found: f64,
+    /// The position of all joints where it found it, rad or m; empty for an exact coefficient.
+    pub witness: Vec<f64>,
+    /// The instant of the motion to which that position belongs, s; `None` over a workspace.
+    pub time: Option<f64>,
     /// Boxes that branch and bound enclosed.
     pub boxes: usize,
 }
@@ -88,7 +103,8 @@ pub fn certified(
             let proof = branch::maximum(&residual, &region, effort, FLOOR * size);
             let rounding = rounding::published(lagrangian, m, &reduced.combinations[m], &reach);
             let bound = (proof.upper + rounding).next_up();
-            Certificate { bound, found: proof.found, boxes: proof.boxes }
+            let (time, witness) = region.position(lagrangian.dof, &proof.found.x);
+            Certificate { bound, found: proof.found.height, witness, time, boxes: proof.boxes }
         })
         .collect()
 }

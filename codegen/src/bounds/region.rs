@@ -115,6 +115,17 @@ impl<'a> Region<'a> {
         out
     }
 
+    /// Time and position of all joints at the variables `x`; joints that do not matter stand where the motion wants
+    /// them, or at 0.
+    pub fn position(&self, dof: usize, x: &[f64]) -> (Option<f64>, Vec<f64>) {
+        let time = self.motion.and(x.get(self.joints.len()).copied());
+        let mut q = self.motion.map_or(vec![0.0; dof], |motion| motion.at(time.unwrap_or(0.0)).q);
+        for (&j, e) in self.joints.iter().zip(x) {
+            q[j] += e;
+        }
+        (time, q)
+    }
+
     /// The cell that is the point with the given variables.
     pub fn point(x: &[f64]) -> Cell {
         let mut at = [0.0; MAX_VARIABLES];
