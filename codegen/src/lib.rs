@@ -46,7 +46,7 @@ pub mod reduction;
 pub mod report;
 pub mod simulate;
 pub mod spec;
-mod spread;
+pub mod spread;
 
 pub use config::{Config, Output};
 pub use error::Error;

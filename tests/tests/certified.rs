@@ -9,7 +9,8 @@ use gramforge::Generation;
 use gramforge::bounds::Effort;
 use gramforge::lagrangian::{Combination, Function, Lagrangian};
 use gramforge::load::{load, parse};
-use gramforge::measure::{Domain, Spread};
+use gramforge::measure::Domain;
+use gramforge::spread::Spread;
 
 /// What a certificate must live up to.
 struct Demand {

@@ -4,8 +4,8 @@ use super::inertia::{Cell, Inertia};
 use super::*;
 use crate::dynamics::mass_matrix;
 use crate::lagrangian::expand;
-use crate::measure::Spread;
 use crate::simulate::example::three_link;
+use crate::spread::Spread;
 use linalg::{dense, symmetric_eigenvalues};
 
 fn unit(index: usize, n: usize) -> Vec<f64> {
