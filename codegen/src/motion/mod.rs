@@ -90,16 +90,9 @@ impl Motion {
         }
     }
 
-    /// Largest |q̇_d| by joint over 2001 instants, rad/s or m/s.
+    /// A bound on |q̇_d| by joint that no instant exceeds, rad/s or m/s.
     pub fn largest_speed(&self) -> Vec<f64> {
-        let mut largest = vec![0.0_f64; self.dof()];
-        for k in 0..=2000 {
-            let target = self.at(self.duration() * f64::from(k) / 2000.0);
-            for (largest, qd) in largest.iter_mut().zip(&target.qd) {
-                *largest = largest.max(qd.abs());
-            }
-        }
-        largest
+        self.reach().speed
     }
 
     /// Number of joints.
