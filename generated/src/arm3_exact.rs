@@ -95,13 +95,13 @@ impl ::gramforge_runtime::Model<3> for Arm3Exact {
 pub const GUARANTEED: bool = false;
 
 /// Periods below this keep the sampled loop stable over the domain, s.
-pub const PERIOD_MAX: f64 = 0.01585958368917983;
+pub const PERIOD_MAX: f64 = 0.01585958368918007;
 
 /// What |q − q_d| ends below where [`GUARANTEED`], by joint, rad or m.
 pub const FINAL_ERROR: [f64; 3] = [
-    0.002550107378261985,
-    0.0016641202446842592,
-    0.0029010625939883475,
+    0.002550107378261921,
+    0.001664120244684249,
+    0.002901062593988324,
 ];
 
 /// Period, torque limits and fault policy.

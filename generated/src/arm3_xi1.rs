@@ -102,18 +102,18 @@ impl ::gramforge_runtime::Model<3> for Arm3Xi1 {
 /// Largest initial position error for which that domain is enough: (0.039031, 0.039031, 0.039031).
 ///
 /// Not guaranteed, because:
-/// - the sign function, held for 0.01 s, may raise V from 3.566e0 J to 6.623e2 J: take a boundary layer or a shorter period
+/// - the sign function, held for 0.01 s, may raise V from 3.566e0 J to 6.622e2 J: take a boundary layer or a shorter period
 /// - the error of joint 1 may reach 0.9387, the tube holds 0.2000; the error of joint 2 may reach 0.6126, the tube holds 0.2000; the error of joint 3 may reach 1.0679, the tube holds 0.2000
 pub const GUARANTEED: bool = false;
 
 /// Periods below this keep the sampled loop stable over the domain, s.
-pub const PERIOD_MAX: f64 = 0.012293314857154913;
+pub const PERIOD_MAX: f64 = 0.01229344667238417;
 
 /// What |q − q_d| ends below where [`GUARANTEED`], by joint, rad or m.
 pub const FINAL_ERROR: [f64; 3] = [
-    0.9387493811745774,
-    0.6125984588782846,
-    1.0679435454641042,
+    0.9387493811745543,
+    0.612598458878281,
+    1.0679435454640958,
 ];
 
 /// Period, torque limits and fault policy.
@@ -131,14 +131,14 @@ pub const LAW: ::gramforge_runtime::ReportLaw<f64, 3> = ::gramforge_runtime::Rep
         pqq: [[0.25, 0.0, 0.0], [0.0, 0.25, 0.0], [0.0, 0.0, 0.25]],
     },
     delta_c: [
-        [7.689466546146367, 6.461919400820819, 3.16469945079382],
-        [6.461919400820819, 0.0, 0.0],
-        [3.16469945079382, 0.0, 0.0],
+        [7.689147807255464, 6.461575375134105, 3.164530965575378],
+        [6.461575375134105, 0.0, 0.0],
+        [3.164530965575378, 0.0, 0.0],
     ],
     coriolis_term: ::gramforge_runtime::CoriolisTerm::Matrix([
-        [12.002778314480791, 0.0, 0.0],
-        [0.0, 12.002778314480791, 0.0],
-        [0.0, 0.0, 12.002778314480791],
+        [12.002205978015512, 0.0, 0.0],
+        [0.0, 12.002205978015512, 0.0],
+        [0.0, 0.0, 12.002205978015512],
     ]),
     disturbance: [0.0, 0.0, 0.0],
     switching: ::gramforge_runtime::Switching::Sign,

@@ -105,13 +105,13 @@ impl ::gramforge_runtime::Model<3> for Arm3Xi2 {
 pub const GUARANTEED: bool = false;
 
 /// Periods below this keep the sampled loop stable over the domain, s.
-pub const PERIOD_MAX: f64 = 0.013833308465969429;
+pub const PERIOD_MAX: f64 = 0.013833387704709665;
 
 /// What |q − q_d| ends below where [`GUARANTEED`], by joint, rad or m.
 pub const FINAL_ERROR: [f64; 3] = [
-    0.9387493811745774,
-    0.6125984588782846,
-    1.0679435454641042,
+    0.9387493811745543,
+    0.612598458878281,
+    1.0679435454640958,
 ];
 
 /// Period, torque limits and fault policy.
@@ -129,14 +129,14 @@ pub const LAW: ::gramforge_runtime::ReportLaw<f64, 3> = ::gramforge_runtime::Rep
         pqq: [[0.25, 0.0, 0.0], [0.0, 0.25, 0.0], [0.0, 0.0, 0.25]],
     },
     delta_c: [
-        [4.228562276163331, 2.0669962775916666, 2.613437247669555],
-        [2.0669962775916666, 0.0, 0.0],
-        [2.613437247669555, 0.0, 0.0],
+        [4.228403491620595, 2.0668862329176734, 2.6132981110619857],
+        [2.0668862329176734, 0.0, 0.0],
+        [2.6132981110619857, 0.0, 0.0],
     ],
     coriolis_term: ::gramforge_runtime::CoriolisTerm::Matrix([
-        [6.060508778491216, 0.0, 0.0],
-        [0.0, 6.060508778491216, 0.0],
-        [0.0, 0.0, 6.060508778491216],
+        [6.0602370648478825, 0.0, 0.0],
+        [0.0, 6.0602370648478825, 0.0],
+        [0.0, 0.0, 6.0602370648478825],
     ]),
     disturbance: [0.0, 0.0, 0.0],
     switching: ::gramforge_runtime::Switching::Sign,

@@ -109,13 +109,13 @@ impl ::gramforge_runtime::Model<3> for Arm3Xi3 {
 pub const GUARANTEED: bool = false;
 
 /// Periods below this keep the sampled loop stable over the domain, s.
-pub const PERIOD_MAX: f64 = 0.01585958368917983;
+pub const PERIOD_MAX: f64 = 0.01585958368918007;
 
 /// What |q − q_d| ends below where [`GUARANTEED`], by joint, rad or m.
 pub const FINAL_ERROR: [f64; 3] = [
-    0.014703367975871115,
-    0.00959495765639701,
-    0.01672689989608103,
+    0.014703367975659045,
+    0.009594957656258802,
+    0.01672689989584005,
 ];
 
 /// Period, torque limits and fault policy.

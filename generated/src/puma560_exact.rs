@@ -260,13 +260,13 @@ impl ::gramforge_runtime::Model<6> for Puma560Exact {
 pub const GUARANTEED: bool = false;
 
 /// Periods below this keep the sampled loop stable over the domain, s.
-pub const PERIOD_MAX: f64 = 0.009336099953143252;
+pub const PERIOD_MAX: f64 = 0.009336099953143271;
 
 /// What |q − q_d| ends below where [`GUARANTEED`], by joint, rad or m.
 pub const FINAL_ERROR: [f64; 6] = [
-    0.015637672494154285,
-    0.014408018686077297,
-    0.028607850873715552,
+    0.01563767249415427,
+    0.014408018686077296,
+    0.028607850873715545,
     0.062479850570052196,
     0.06622064317159355,
     0.0621797910323735,

@@ -61,7 +61,7 @@ impl Motion {
 
     /// Bounds on |q_d|, |q̇_d| and |q̈_d| by joint over the whole motion that no instant exceeds.
     pub fn reach(&self) -> Reach {
-        const INTERVALS: u32 = 256;
+        const INTERVALS: u32 = 1024;
         let n = self.dof();
         let mut out = Reach { position: vec![0.0; n], speed: vec![0.0; n], acceleration: vec![0.0; n] };
         let half = 0.5 * self.duration() / f64::from(INTERVALS);

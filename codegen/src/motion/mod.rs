@@ -90,34 +90,14 @@ impl Motion {
         }
     }
 
-    /// A bound on |q̇_d| by joint, rad/s or m/s: the largest over 2001 instants, and what q̈_d can add between them.
+    /// A bound on |q̇_d| by joint that no instant exceeds, rad/s or m/s.
     pub fn largest_speed(&self) -> Vec<f64> {
-        let mut largest = vec![0.0_f64; self.dof()];
-        for k in 0..=2000 {
-            let target = self.at(self.duration() * f64::from(k) / 2000.0);
-            for (largest, qd) in largest.iter_mut().zip(&target.qd) {
-                *largest = largest.max(qd.abs());
-            }
-        }
-        let half = self.duration() / 4000.0;
-        largest.iter().zip(self.largest_acceleration()).map(|(v, a)| v + a * half).collect()
+        self.reach().speed
     }
 
-    /// A bound on |q̈_d| by joint, rad/s² or m/s².
+    /// A bound on |q̈_d| by joint that no instant exceeds, rad/s² or m/s².
     pub fn largest_acceleration(&self) -> Vec<f64> {
-        match self {
-            // max|10·6x − 15·12x² + 6·20x³| over [0, 1] is 10/√3.
-            Self::Quintic { from, to, duration } => {
-                let most =
-                    |(from, to): (&f64, &f64)| 5.773_502_692 * (to - from).abs() / (duration * duration);
-                from.iter().zip(to).map(most).collect()
-            }
-            Self::Spline(spline) => spline.largest_acceleration(),
-            Self::Sinusoids { terms, .. } => {
-                let most = |s: &Sinusoid<f64>| s.amplitude.abs() * s.frequency * s.frequency;
-                terms.iter().map(|terms| terms.iter().map(most).sum()).collect()
-            }
-        }
+        self.acceleration_within(0.0, self.duration())
     }
 
     /// Number of joints.

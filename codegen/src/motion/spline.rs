@@ -45,18 +45,6 @@ impl Spline {
         self.pieces.first().map_or(0, Vec::len)
     }
 
-    /// Largest |q̈| by joint: it is linear in each piece, so a knot attains it.
-    pub(super) fn largest_acceleration(&self) -> Vec<f64> {
-        let mut largest = vec![0.0_f64; self.dof()];
-        for (ends, piece) in self.times.windows(2).zip(&self.pieces) {
-            for (largest, c) in largest.iter_mut().zip(piece) {
-                let last = 2.0 * c[2] + 6.0 * c[3] * (ends[1] - ends[0]);
-                *largest = largest.max((2.0 * c[2]).abs()).max(last.abs());
-            }
-        }
-        largest
-    }
-
     /// Time since the start of the piece at `t`, and the piece's coefficients.
     pub(super) fn piece(&self, t: f64) -> (f64, &[[f64; 4]]) {
         let later = self.times.partition_point(|&knot| knot <= t);
