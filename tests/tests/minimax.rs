@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use gramforge::Generation;
-use gramforge::bounds::sampled;
+use gramforge::bounds::{Effort, certified};
 use gramforge::lagrangian::Lagrangian;
 use gramforge::load::load;
 use gramforge::measure::Measure;
@@ -37,7 +37,8 @@ fn assert_lower(name: &str, expected: &[(usize, f64)]) {
         let uniform = minimax(lagrangian, squares.clone(), &points);
         assert_eq!((&uniform.selected, &uniform.simplified), (&squares.selected, &squares.simplified));
         let bound = |reduced: &Reduced| {
-            weighted(lagrangian, &measure, &sampled(lagrangian, reduced, domain, motion.as_ref()))
+            let proofs = certified(lagrangian, reduced, domain, motion.as_ref(), &Effort::default());
+            weighted(lagrangian, &measure, &proofs.iter().map(|proof| proof.bound).collect::<Vec<_>>())
         };
         let (before, after) = (bound(&squares), bound(&uniform));
         let lower = 1.0 - after / before;

@@ -58,7 +58,7 @@ impl Default for Effort {
 impl Effort {
     /// Boxes for a residual of `terms` terms.
     fn budget(&self, terms: usize) -> usize {
-        if terms > LONG { self.boxes / terms.div_ceil(LONG) } else { self.boxes }
+        if terms > LONG { self.boxes / (2 * terms.div_ceil(LONG)) } else { self.boxes }
     }
 }
 
