@@ -100,12 +100,17 @@ pub fn design(problem: &Problem) -> Result<Design, Error> {
     let disturbance: Vec<f64> = arm.joints.iter().map(disturbance).collect();
     let layer = |phi| checked("control.boundary_layer", vector(phi, n));
     let boundary_layer = control.boundary_layer.as_ref().map(layer).transpose()?;
+    let form = if gains.is_finite() { reach::Form::new(&gains) } else { None };
+    let form = form.ok_or_else(|| {
+        let problem = "gives gains that overflow, or are too far apart to compute with";
+        Error::input(file, "control", problem, "write W, Pqq and Omega in SI units")
+    })?;
     let initial = &control.initial_error;
     let given = |m| checked("control.delta_c1", matrix(m, n));
     let judgement = guarantee::Parts {
         problem,
         gains: &gains,
-        form: reach::Form::new(&gains)?,
+        form,
         disturbance: &disturbance,
         layer: boundary_layer.as_deref(),
         initial: [

@@ -53,7 +53,8 @@ pub(super) struct Form {
 }
 
 impl Form {
-    pub(super) fn new(gains: &Gains) -> Result<Self, Error> {
+    /// `None` where rounding has cost M its definiteness: gains some fifteen powers of ten apart.
+    pub(super) fn new(gains: &Gains) -> Option<Self> {
         let n = gains.pqq.len();
         let omega = dense(&gains.pqq) * dense(&gains.p12);
         let m = DMatrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
@@ -62,10 +63,9 @@ impl Form {
             (false, true) => -gains.pqq[i - n][j],
             (false, false) => omega[(i - n, j - n)],
         });
-        let definite = || Error::Internal("M of equation (17) is not positive definite".to_string());
-        let factor = m.cholesky().ok_or_else(definite)?;
-        let root_inverse = factor.l().try_inverse().ok_or_else(definite)?;
-        Ok(Self { inverse: factor.inverse(), root_inverse })
+        let factor = m.cholesky()?;
+        let root_inverse = factor.l().try_inverse()?;
+        Some(Self { inverse: factor.inverse(), root_inverse })
     }
 }
 
