@@ -22,7 +22,7 @@ const SPEC: &str = r#"{
   "motion": MOTION,
   "measure": { "tube": { "position_error": [0.2, 0.1] } },
   "model": { "shared": { "functions": 2 } },
-  "control": { "law": "report", "period": 0.01, "W": [[40.0, 1.0], [1.0, 30.0]], "Pqq": [0.5, 0.25], "Omega": 1.0,
+  "control": { "law": "report", "period": 0.005, "W": [[40.0, 1.0], [1.0, 30.0]], "Pqq": [0.5, 0.25], "Omega": 1.0,
     "boundary_layer": 0.05, "initial_error": { "position": 0.2, "velocity": [0.0, 0.1] },
     "compensate_coulomb": true, "on_fault": "gravity" },
   "simulation": { "duration": 1.0, "substeps": 4 }

@@ -92,7 +92,7 @@ impl Parts<'_> {
         let delta_c1 = self.delta_c1.clone().unwrap_or_else(|| family::multiple_of_identity(k_star, n));
 
         let gain = course.gain(&envelope.position_error, &envelope.velocity_error, &delta_c);
-        let period_max = self.longest_period(&inertia, over, &delta_c1, &gain)?;
+        let period_max = self.longest_period(&inertia, over, &delta_c1, &gain);
         let final_error = course.final_error(&envelope, &delta_c)?;
 
         if !facts.certified {
@@ -169,7 +169,7 @@ impl Parts<'_> {
         over: Vec<super::inertia::Cell>,
         delta_c1: &[Vec<f64>],
         gain: &[f64],
-    ) -> Result<f64, Error> {
+    ) -> f64 {
         let control = self.problem.control;
         let n = gain.len();
         let robust = control.law != LawSpec::Exact;
@@ -180,7 +180,7 @@ impl Parts<'_> {
         let zero = vec![vec![0.0; n]; n];
         let more = if self.has_matrix() { delta_c1 } else { &zero };
         let pull = super::linalg::symmetric_eigenvalues(&self.gains.p12).last().copied().unwrap_or(0.0);
-        Ok(2.0 / (fastest(inertia, over, &total(&self.gains.damping, more, &slope))? + pull))
+        2.0 / (fastest(inertia, over, &total(&self.gains.damping, more, &slope)) + pull)
     }
 
     fn has_matrix(&self) -> bool {

@@ -244,16 +244,16 @@ pub(super) fn initial_level(
     extremes.bound[0] + elastic
 }
 
-/// The largest λ_max(D⁻¹K), 1/s, over `cells`.
-pub(super) fn fastest(inertia: &Inertia, cells: Vec<Cell>, damping: &[Vec<f64>]) -> Result<f64, Error> {
-    let definite = || Error::Internal("K is not positive definite after its check".to_string());
-    let root = dense(damping).cholesky().ok_or_else(definite)?.l();
+/// The largest λ_max(D⁻¹K), 1/s, over `cells`; infinite where K has overflowed.
+pub(super) fn fastest(inertia: &Inertia, cells: Vec<Cell>, damping: &[Vec<f64>]) -> f64 {
+    let Some(factor) = dense(damping).cholesky() else { return f64::INFINITY };
+    let root = factor.l();
     let extremes = inertia.largest(cells, TOLERANCE, BUDGET / damping.len().pow(2), |low, _| {
         let Some(factor) = low.clone().cholesky() else { return vec![f64::INFINITY] };
         vec![(root.transpose() * factor.solve(&root)).symmetric_eigenvalues().max()]
     });
     let (bound, seen) = (extremes.bound[0], extremes.seen[0]);
-    Ok(if bound.is_finite() { bound } else { seen })
+    if bound.is_finite() { bound } else { seen }
 }
 
 /// K with the slope of the robust terms.

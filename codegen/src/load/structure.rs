@@ -1,8 +1,10 @@
 //! Missing, unknown and mistyped fields: the schema's verdict, one plain message for each mistake.
 
-use jsonschema::ValidationError;
+use std::sync::LazyLock;
+
 use jsonschema::error::ValidationErrorKind as Kind;
 use jsonschema::paths::{Location, LocationSegment};
+use jsonschema::{ValidationError, Validator};
 use serde_json::Value;
 
 use super::wording::{describe, either, entry, member, nearest, options, quoted, resolve, show, tag};
@@ -38,10 +40,13 @@ fn cap_integers(schema: &mut Value) {
 /// # Errors
 /// [`Error::Internal`] where the schema itself is broken.
 pub(super) fn check(value: &Value, faults: &mut Faults) -> Result<(), Error> {
-    let schema = schema();
-    let validator = jsonschema::validator_for(&schema).map_err(|e| Error::Internal(e.to_string()))?;
+    // Compiling the schema costs more than checking a file, and build scripts check many.
+    static SCHEMA: LazyLock<Value> = LazyLock::new(schema);
+    static VALIDATOR: LazyLock<Result<Validator, String>> =
+        LazyLock::new(|| jsonschema::validator_for(&SCHEMA).map_err(|error| error.to_string()));
+    let validator = VALIDATOR.as_ref().map_err(|error| Error::Internal(error.clone()))?;
     let errors: Vec<_> = validator.iter_errors(value).collect();
-    Explainer { schema: &schema, faults }.all(&errors);
+    Explainer { schema: &SCHEMA, faults }.all(&errors);
     Ok(())
 }
 
