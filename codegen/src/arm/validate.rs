@@ -50,8 +50,9 @@ pub(super) fn body(
         let mend = "write an inertia without negative moments; check signs, units and the point it refers to";
         place.at(inertia).fault(faults, problem, mend);
     } else if moments[2] > moments[0] + moments[1] + slack {
+        let moments = moments.map(|moment| if moment.abs() <= slack { 0.0 } else { moment });
         let what = format!(
-            "the principal moments {:.6e}, {:.6e}, {:.6e} kg·m² break the triangle inequality; \
+            "the principal moments {:.6}, {:.6}, {:.6} kg·m² break the triangle inequality; \
              no rigid body has them, they are used as given",
             moments[0], moments[1], moments[2]
         );
