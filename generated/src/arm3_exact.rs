@@ -6,7 +6,7 @@
 ///
 /// One passivity torque: 52 multiplications, 34 additions, 2 sine-cosine pairs.
 ///
-/// Nothing is left out, so the bounds are zero everywhere.
+/// Nothing is left out but rounding and terms below 1e-12 of the largest, so the bounds are zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Arm3Exact;
 
@@ -31,7 +31,7 @@ pub const TRIG_PAIRS: usize = 2;
 /// Diagonal of B, N·m·s/rad or N·s/m.
 pub const VISCOUS_FRICTION: [f64; 3] = [0.0, 0.0, 0.0];
 
-/// ΔD, Δh, ΔB and ΔG over the domain above, certified: no state in it exceeds them.
+/// ΔD, Δh, ΔB and ΔG of the simplified coefficients, certified over the domain that the model's documentation names.
 pub const BOUNDS: ::gramforge_runtime::Bounds<f64, 3> = ::gramforge_runtime::Bounds::ZERO;
 
 impl ::gramforge_runtime::Model<3> for Arm3Exact {
@@ -85,19 +85,19 @@ impl ::gramforge_runtime::Model<3> for Arm3Exact {
     }
 }
 
-/// Whether the joints stay inside the domain of the bounds from every initial error specified, while no torque
-/// limit cuts the command.
+/// Whether the joints stay inside the domain of the bounds from every initial error specified, as long as the
+/// planned motion lasts and no torque limit cuts the command.
 ///
-/// Largest initial position error for which that domain is enough: (0.039031, 0.039031, 0.039031).
+/// Largest initial position error for which that domain is enough, other reasons apart: (0.039031, 0.039031, 0.039031).
 ///
 /// Not guaranteed, because:
 /// - the error of joint 1 may reach 0.9387, the tube holds 0.2000; the error of joint 2 may reach 0.6126, the tube holds 0.2000; the error of joint 3 may reach 1.0679, the tube holds 0.2000
 pub const GUARANTEED: bool = false;
 
-/// Periods below this keep the sampled loop stable over the domain, s.
+/// Periods below this keep the sampled loop stable at every D of the domain, held still, s.
 pub const PERIOD_MAX: f64 = 0.01585958368918007;
 
-/// What |q − q_d| ends below where [`GUARANTEED`], by joint, rad or m.
+/// What |q − q_d| ends below if [`GUARANTEED`], by joint, rad or m; means nothing otherwise.
 pub const FINAL_ERROR: [f64; 3] = [
     0.002550107378261921,
     0.001664120244684249,

@@ -10,7 +10,7 @@
 ///
 /// The exact model costs 52 multiplications, 34 additions, 2 sine-cosine pairs: the reduced one saves 40 of 86 operations.
 ///
-/// Domain of the bounds: |q − q_d(t)| ≤ (0.2, 0.2, 0.2) around the desired trajectory. They are certified, rounding in f64 included.
+/// Domain of the bounds: |q − q_d(t)| ≤ (0.2, 0.2, 0.2) around the desired trajectory. They are certified, rounding in f64 included; coefficients that are not simplified are exact but for rounding and for terms below 1e-12 of the largest, and count as zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Arm3Xi1;
 
@@ -35,7 +35,7 @@ pub const TRIG_PAIRS: usize = 2;
 /// Diagonal of B, N·m·s/rad or N·s/m.
 pub const VISCOUS_FRICTION: [f64; 3] = [0.0, 0.0, 0.0];
 
-/// ΔD, Δh, ΔB and ΔG over the domain above, certified: no state in it exceeds them.
+/// ΔD, Δh, ΔB and ΔG of the simplified coefficients, certified over the domain that the model's documentation names.
 pub const BOUNDS: ::gramforge_runtime::Bounds<f64, 3> = ::gramforge_runtime::Bounds {
     d: [
         [0.9292761658031442, 0.0, 0.0],
@@ -96,20 +96,20 @@ impl ::gramforge_runtime::Model<3> for Arm3Xi1 {
     }
 }
 
-/// Whether the joints stay inside the domain of the bounds from every initial error specified, while no torque
-/// limit cuts the command.
+/// Whether the joints stay inside the domain of the bounds from every initial error specified, as long as the
+/// planned motion lasts and no torque limit cuts the command.
 ///
-/// Largest initial position error for which that domain is enough: (0.039031, 0.039031, 0.039031).
+/// Largest initial position error for which that domain is enough, other reasons apart: (0.039031, 0.039031, 0.039031).
 ///
 /// Not guaranteed, because:
 /// - the sign function, held for 0.01 s, may raise V from 3.566e0 J to 6.622e2 J: take a boundary layer or a shorter period
 /// - the error of joint 1 may reach 0.9387, the tube holds 0.2000; the error of joint 2 may reach 0.6126, the tube holds 0.2000; the error of joint 3 may reach 1.0679, the tube holds 0.2000
 pub const GUARANTEED: bool = false;
 
-/// Periods below this keep the sampled loop stable over the domain, s.
+/// Periods below this keep the sampled loop stable at every D of the domain, held still, s.
 pub const PERIOD_MAX: f64 = 0.01229344667238417;
 
-/// What |q − q_d| ends below where [`GUARANTEED`], by joint, rad or m.
+/// What |q − q_d| ends below if [`GUARANTEED`], by joint, rad or m; means nothing otherwise.
 pub const FINAL_ERROR: [f64; 3] = [
     0.9387493811745543,
     0.612598458878281,

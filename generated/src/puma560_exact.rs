@@ -6,7 +6,7 @@
 ///
 /// One passivity torque: 300 multiplications, 243 additions, 5 sine-cosine pairs.
 ///
-/// Nothing is left out, so the bounds are zero everywhere.
+/// Nothing is left out but rounding and terms below 1e-12 of the largest, so the bounds are zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Puma560Exact;
 
@@ -38,7 +38,7 @@ pub const VISCOUS_FRICTION: [f64; 6] = [
     0.2158232532732,
 ];
 
-/// ΔD, Δh, ΔB and ΔG over the domain above, certified: no state in it exceeds them.
+/// ΔD, Δh, ΔB and ΔG of the simplified coefficients, certified over the domain that the model's documentation names.
 pub const BOUNDS: ::gramforge_runtime::Bounds<f64, 6> = ::gramforge_runtime::Bounds::ZERO;
 
 impl ::gramforge_runtime::Model<6> for Puma560Exact {
@@ -250,19 +250,19 @@ impl ::gramforge_runtime::Model<6> for Puma560Exact {
     }
 }
 
-/// Whether the joints stay inside the domain of the bounds from every initial error specified, while no torque
-/// limit cuts the command.
+/// Whether the joints stay inside the domain of the bounds from every initial error specified, as long as the
+/// planned motion lasts and no torque limit cuts the command.
 ///
-/// Largest initial position error for which that domain is enough: (0.013081, 0.013081, 0.013081, 0.013081, 0.013081, 0.013081).
+/// Largest initial position error for which that domain is enough, other reasons apart: (0.013081, 0.013081, 0.013081, 0.013081, 0.013081, 0.013081).
 ///
 /// Not guaranteed, because:
 /// - the error of joint 4 may reach 0.1444, the tube holds 0.1000; the error of joint 5 may reach 0.1530, the tube holds 0.1000; the error of joint 6 may reach 0.1437, the tube holds 0.1000
 pub const GUARANTEED: bool = false;
 
-/// Periods below this keep the sampled loop stable over the domain, s.
+/// Periods below this keep the sampled loop stable at every D of the domain, held still, s.
 pub const PERIOD_MAX: f64 = 0.009336099953143271;
 
-/// What |q − q_d| ends below where [`GUARANTEED`], by joint, rad or m.
+/// What |q − q_d| ends below if [`GUARANTEED`], by joint, rad or m; means nothing otherwise.
 pub const FINAL_ERROR: [f64; 6] = [
     0.01563767249415427,
     0.014408018686077296,

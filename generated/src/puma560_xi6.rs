@@ -15,7 +15,7 @@
 ///
 /// The exact model costs 300 multiplications, 243 additions, 5 sine-cosine pairs: the exact one is not dearer (543 operations against 835), so reducing does not pay here.
 ///
-/// Domain of the bounds: |q − q_d(t)| ≤ (0.1, 0.1, 0.1, 0.1, 0.1, 0.1) around the desired trajectory. They are certified, rounding in f64 included.
+/// Domain of the bounds: |q − q_d(t)| ≤ (0.1, 0.1, 0.1, 0.1, 0.1, 0.1) around the desired trajectory. They are certified, rounding in f64 included; coefficients that are not simplified are exact but for rounding and for terms below 1e-12 of the largest, and count as zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Puma560Xi6;
 
@@ -54,7 +54,7 @@ pub const VISCOUS_FRICTION: [f64; 6] = [
     0.2158232532732,
 ];
 
-/// ΔD, Δh, ΔB and ΔG over the domain above, certified: no state in it exceeds them.
+/// ΔD, Δh, ΔB and ΔG of the simplified coefficients, certified over the domain that the model's documentation names.
 pub const BOUNDS: ::gramforge_runtime::Bounds<f64, 6> = ::gramforge_runtime::Bounds {
     d: [
         [
@@ -531,19 +531,19 @@ impl ::gramforge_runtime::Model<6> for Puma560Xi6 {
     }
 }
 
-/// Whether the joints stay inside the domain of the bounds from every initial error specified, while no torque
-/// limit cuts the command.
+/// Whether the joints stay inside the domain of the bounds from every initial error specified, as long as the
+/// planned motion lasts and no torque limit cuts the command.
 ///
-/// Largest initial position error for which that domain is enough: (0.013081, 0.013081, 0.013081, 0.013081, 0.013081, 0.013081).
+/// Largest initial position error for which that domain is enough, other reasons apart: (0.013081, 0.013081, 0.013081, 0.013081, 0.013081, 0.013081).
 ///
 /// Not guaranteed, because:
 /// - the error of joint 4 may reach 0.1444, the tube holds 0.1000; the error of joint 5 may reach 0.1530, the tube holds 0.1000; the error of joint 6 may reach 0.1437, the tube holds 0.1000
 pub const GUARANTEED: bool = false;
 
-/// Periods below this keep the sampled loop stable over the domain, s.
+/// Periods below this keep the sampled loop stable at every D of the domain, held still, s.
 pub const PERIOD_MAX: f64 = 0.008829381514877324;
 
-/// What |q − q_d| ends below where [`GUARANTEED`], by joint, rad or m.
+/// What |q − q_d| ends below if [`GUARANTEED`], by joint, rad or m; means nothing otherwise.
 pub const FINAL_ERROR: [f64; 6] = [
     0.01593491159242885,
     0.014681884664775458,

@@ -172,6 +172,8 @@ fn view(generation: &Generation) -> Inspection<'_> {
         form: generation.form.name(),
         verdict: if reduced.selected.is_empty() {
             "this is the exact model.".to_string()
+        } else if !reduced.simplified.contains(&true) {
+            "no coefficient has more functions than are kept, so nothing was simplified.".to_string()
         } else {
             verdict(&operations.reduced, &operations.exact)
         },
@@ -227,16 +229,15 @@ fn text(view: &Inspection, generation: &Generation) -> String {
     if !view.selected.is_empty() {
         let largest = |values: &mut dyn Iterator<Item = &f64>| values.fold(0.0_f64, |a, &b| a.max(b));
         lines.push(format!(
-            "bounds ({}) over {}: dD <= {:.4}, dh <= {:.4}, dG <= {:.4}",
+            "bounds ({}) over {}: dD <= {}, dh <= {}, dG <= {}",
             view.bounds.kind,
             domain_in_words(&generation.domain),
-            largest(&mut view.bounds.D.iter().flatten()),
-            largest(&mut view.bounds.H.iter().flatten().flatten()),
-            largest(&mut view.bounds.G.iter()),
+            up(largest(&mut view.bounds.D.iter().flatten())),
+            up(largest(&mut view.bounds.H.iter().flatten().flatten())),
+            up(largest(&mut view.bounds.G.iter())),
         ));
     }
     if let Some(torque) = view.torque_error.as_ref().filter(|_| !view.selected.is_empty()) {
-        let list = |x: &[f64]| x.iter().map(|x| format!("{x:.4}")).collect::<Vec<_>>().join(", ");
         let peak = view.peak_torque.as_ref().map_or(String::new(), |peak| format!(" of {}", list(peak)));
         lines.push(format!("torque error (certified) <= {}{peak}", list(torque)));
     }
@@ -255,20 +256,42 @@ fn text(view: &Inspection, generation: &Generation) -> String {
 }
 
 fn list(x: &[f64]) -> String {
-    x.iter().map(|e| format!("{e:.4}")).collect::<Vec<_>>().join(", ")
+    x.iter().map(|&e| up(e)).collect::<Vec<_>>().join(", ")
+}
+
+/// Four digits, never below the number: what is printed of a bound is one, too.
+fn up(x: f64) -> String {
+    if x == 0.0 { "0".to_string() } else { format!("{:.3e}", x + 5e-4 * x.abs()) }
+}
+
+/// Four digits, never above the number.
+fn down(x: f64) -> String {
+    if x == 0.0 { "0".to_string() } else { format!("{:.3e}", x - 5e-4 * x.abs()) }
 }
 
 fn guarantee(promised: &GuaranteeView) -> Vec<String> {
     let kind = if promised.inertia_certified { "certified" } else { "sampled" };
     let mut lines = vec![
         format!("final error: ({})", list(promised.final_error)),
-        format!("largest initial error: ({})", list(promised.initial_error_max)),
+        format!(
+            "largest initial error: ({})",
+            promised.initial_error_max.iter().map(|&e| down(e)).collect::<Vec<_>>().join(", ")
+        ),
         format!("smallest sufficient tube: {}", promised.tube_needed.map_or("none found".to_string(), list)),
         format!(
-            "longest period: {:.4e} s, with lambda_min(D) >= {:.4} ({kind})",
-            promised.period_max, promised.inertia_min
+            "longest period: {} s, at every D of the domain held still; lambda_min(D) >= {} ({kind})",
+            down(promised.period_max),
+            down(promised.inertia_min)
         ),
-        format!("guaranteed: {}", promised.guaranteed),
+        format!(
+            "guaranteed: {}{}",
+            promised.guaranteed,
+            if promised.guaranteed {
+                ", as long as the planned motion lasts and no torque limit cuts in"
+            } else {
+                ""
+            }
+        ),
     ];
     lines.extend(promised.reasons.iter().map(|reason| format!("  {reason}")));
     lines

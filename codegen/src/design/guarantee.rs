@@ -4,7 +4,10 @@ use super::inertia::Inertia;
 use super::reach::{Course, Envelope, InertiaBounds, fastest, inertia_bounds, initial_level, total};
 use super::region::{cells, outside, reach, start, width};
 use super::{Problem, family};
+use crate::arm::Arm;
+use crate::bounds::peak_torque;
 use crate::error::Error;
+use crate::motion::Motion;
 use crate::spec::LawSpec;
 
 /// Halvings of the interval in which the largest initial error lies.
@@ -57,6 +60,20 @@ pub(super) struct Parts<'a> {
     pub(super) delta_c1: Option<Vec<Vec<f64>>>,
 }
 
+/// The joints whose torque limit is less than what the desired motion alone takes.
+///
+/// That no limit cuts in during a transient is not judged: the guarantee supposes it.
+fn beyond_torque_limits(arm: &Arm, motion: &Motion) -> Vec<String> {
+    let limits = arm.joints.iter().map(|joint| joint.limits.torque);
+    (1..)
+        .zip(peak_torque(arm, motion).into_iter().zip(limits))
+        .filter_map(|(number, (peak, limit))| {
+            let limit = limit.filter(|&limit| peak >= limit)?;
+            Some(format!("the desired motion takes {peak:.4} of joint {number}, its torque limit is {limit}"))
+        })
+        .collect()
+}
+
 impl Parts<'_> {
     pub(super) fn judge(self) -> Result<Judgement, Error> {
         let Problem { arm, domain, motion, bounds, control, lagrangian, .. } = *self.problem;
@@ -104,6 +121,7 @@ impl Parts<'_> {
                 control.period
             ));
         }
+        reasons.extend(motion.map_or(Vec::new(), |motion| beyond_torque_limits(arm, motion)));
         if control.law != LawSpec::Exact && self.layer.is_none() && course.ball(&gain, true) > envelope.level
         {
             reasons.push(format!(

@@ -185,7 +185,12 @@ impl Design {
                 format!("is set, and nothing is guaranteed: {}", promised.reasons.join("; ")),
                 format!(
                     "take {tube}, or an initial position error of at most ({})",
-                    list(&promised.initial_error_max)
+                    promised
+                        .initial_error_max
+                        .iter()
+                        .map(|e| format!("{:.3e}", e * 0.9995))
+                        .collect::<Vec<_>>()
+                        .join(", ")
                 ),
             );
         }

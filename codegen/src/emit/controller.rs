@@ -29,9 +29,9 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
     Ok(quote! {
         #(#[doc = #guaranteed_docs])*
         pub const GUARANTEED: bool = #guaranteed;
-        /// Periods below this keep the sampled loop stable over the domain, s.
+        /// Periods below this keep the sampled loop stable at every D of the domain, held still, s.
         pub const PERIOD_MAX: f64 = #period_max;
-        /// What |q − q_d| ends below where [`GUARANTEED`], by joint, rad or m.
+        /// What |q − q_d| ends below if [`GUARANTEED`], by joint, rad or m; means nothing otherwise.
         pub const FINAL_ERROR: [f64; #n] = #final_error;
         /// Period, torque limits and fault policy.
         pub const SETTINGS: ::gramforge_runtime::Settings<f64, #n> = #settings;

@@ -43,11 +43,15 @@ pub(super) fn model(module: &Module) -> Vec<String> {
         lines.push(format!(" The exact model costs {}: {}", cost(&exact), verdict(&operations, &exact)));
         lines.push(String::new());
         lines.push(format!(
-            " Domain of the bounds: {}. They are certified, rounding in f64 included.",
+            " Domain of the bounds: {}. They are certified, rounding in f64 included; coefficients that are not \
+             simplified are exact but for rounding and for terms below 1e-12 of the largest, and count as zero.",
             domain(module.domain)
         ));
     } else {
-        lines.push(" Nothing is left out, so the bounds are zero everywhere.".to_string());
+        lines.push(
+            " Nothing is left out but rounding and terms below 1e-12 of the largest, so the bounds are zero."
+                .to_string(),
+        );
     }
     lines
 }
@@ -56,11 +60,14 @@ pub(super) fn model(module: &Module) -> Vec<String> {
 pub(super) fn guaranteed(guarantee: &Guarantee) -> Vec<String> {
     let list = |x: &[f64]| x.iter().map(|e| format!("{e:.6}")).collect::<Vec<_>>().join(", ");
     let mut lines = vec![
-        " Whether the joints stay inside the domain of the bounds from every initial error specified, while no torque"
+        " Whether the joints stay inside the domain of the bounds from every initial error specified, as long as the"
             .to_string(),
-        " limit cuts the command.".to_string(),
+        " planned motion lasts and no torque limit cuts the command.".to_string(),
         String::new(),
-        format!(" Largest initial position error for which that domain is enough: ({}).", list(&guarantee.initial_error_max)),
+        format!(
+            " Largest initial position error for which that domain is enough, other reasons apart: ({}).",
+            list(&guarantee.initial_error_max)
+        ),
     ];
     if !guarantee.holds {
         lines.extend([String::new(), " Not guaranteed, because:".to_string()]);
