@@ -143,6 +143,7 @@ impl Generation {
                     bounds: &bounds,
                     domain: &domain,
                     motion: motion.as_ref(),
+                    seek_tube: effort.seek_tube,
                 })
             })
             .transpose()?;

@@ -46,12 +46,15 @@ pub struct Effort {
     pub boxes: usize,
     /// Starts of the search from below.
     pub starts: usize,
+    /// Whether the design also seeks the smallest sufficient tube, which costs more than all its other numbers; it does
+    /// so in any case where a required guarantee fails.
+    pub seek_tube: bool,
 }
 
 impl Default for Effort {
     /// What generation spends.
     fn default() -> Self {
-        Self { tolerance: 0.01, boxes: 100_000, starts: 12 }
+        Self { tolerance: 0.01, boxes: 100_000, starts: 12, seek_tube: false }
     }
 }
 

@@ -6,11 +6,12 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{json, show_warnings};
-use crate::bounds::{Bounds, Rates, estimate, peak_torque, torque_error};
+use crate::bounds::{Bounds, Effort, Rates, estimate, peak_torque, torque_error};
 use crate::design::Envelope;
 use crate::emit::{domain_in_words, verdict};
 use crate::error::Error;
 use crate::graph::Operations;
+use crate::load::load;
 use crate::measure::Domain;
 use crate::pipeline::Generation;
 
@@ -115,7 +116,8 @@ struct GuaranteeView<'a> {
 
 impl Inspect {
     pub(super) fn run(&self) -> Result<String, Error> {
-        let generation = Generation::from_file(&self.spec)?;
+        let effort = Effort { seek_tube: true, ..Effort::default() };
+        let generation = Generation::with_effort(load(&self.spec)?, &effort)?;
         show_warnings(&generation.warnings);
         let view = view(&generation);
         if self.json { json(&view) } else { Ok(text(&view, &generation)) }

@@ -34,7 +34,7 @@ pub struct Guarantee {
     /// the tube where it names none, scaled; the initial velocity error as specified.
     pub initial_error_max: Vec<f64>,
     /// Smallest tube that the errors never leave, by joint, rad or m, with the bounds of the present one; `None` where
-    /// none was found.
+    /// none was found, or none was sought.
     pub tube_needed: Option<Vec<f64>>,
     /// Bounds on D over the domain.
     pub inertia: InertiaBounds,
@@ -132,7 +132,8 @@ impl Parts<'_> {
             ));
         }
         let leaves = outside(domain, motion, arm, &envelope.position_error);
-        let tube_needed = if !facts.certified {
+        let wanted = self.problem.seek_tube || control.require_guarantee;
+        let tube_needed = if !facts.certified || !wanted {
             None
         } else if leaves.is_empty() || width(domain, n).is_none() {
             Some(envelope.position_error.clone())

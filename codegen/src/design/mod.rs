@@ -78,6 +78,8 @@ pub struct Problem<'a> {
     pub domain: &'a Domain,
     /// The desired motion.
     pub motion: Option<&'a Motion>,
+    /// Whether to seek the smallest sufficient tube even where no guarantee is required.
+    pub seek_tube: bool,
 }
 
 /// Designs the law and judges it.

@@ -86,6 +86,7 @@ impl Example {
             bounds: &bounds,
             domain: &tube,
             motion: Some(&motion),
+            seek_tube: false,
         })
         .unwrap();
         let initial = control.initial_error;
