@@ -3,10 +3,17 @@
 //! Types only; [`crate::load`] reads and checks a file, the stages give the fields their meaning.
 //! Units are SI throughout: m, kg, s, rad, N·m (N and m for prismatic joints).
 
+mod uncertainty;
+
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+pub use uncertainty::{
+    AdaptationSpec, LinkUncertaintySpec, ParametersSpec, PayloadUncertaintySpec, SymmetricIntervalsSpec,
+    UncertaintySpec,
+};
 
 /// A whole specification file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -371,6 +378,12 @@ pub struct ControlSpec {
     /// Largest initial error.
     #[serde(default)]
     pub initial_error: InitialErrorSpec,
+    /// What is known of the arm only to intervals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<UncertaintySpec>,
+    /// How law `adaptive` learns.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adaptation: Option<AdaptationSpec>,
     /// Take a period longer than the sampled loop admits; nothing is guaranteed then.
     #[serde(default)]
     pub allow_long_period: bool,
@@ -395,6 +408,8 @@ pub enum LawSpec {
     Report,
     /// Equation (34) with the model's error bounded at the state at hand in place of its bracket, without ΔC1.
     Tight,
+    /// Equation (46): (34) with parameters that are learnt on the way, (49).
+    Adaptive,
 }
 
 /// The variants of equation (34).

@@ -71,6 +71,7 @@ pub mod law;
 mod model;
 mod real;
 pub mod reference;
+mod regression;
 pub mod simulate;
 #[cfg(test)]
 mod test_arm;
@@ -78,7 +79,8 @@ mod vector;
 
 pub use controller::{Command, Controller, OnFault, Settings};
 pub use error::{ConfigError, Fault, PlantError, Quantity, Requirement};
-pub use law::{CoriolisTerm, ExactLaw, Gains, Law, ReportLaw, Switching, TightLaw};
+pub use law::{AdaptiveLaw, CoriolisTerm, ExactLaw, Gains, Law, ReportLaw, Switching, TightLaw};
 pub use model::{Bounds, Model};
 pub use real::Real;
 pub use reference::{Desired, QuinticReference, Reference, SinusoidReference, SplineReference};
+pub use regression::{AdaptiveModel, Regression};

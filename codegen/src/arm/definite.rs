@@ -83,6 +83,7 @@ mod tests {
             kind: JointKind::Revolute,
             pose: Transform::IDENTITY,
             body: Body::default(),
+            link: Transform::IDENTITY,
             armature: 0.0,
             viscous_friction: 0.0,
             coulomb_friction: [0.0; 2],

@@ -6,12 +6,14 @@ mod dh;
 mod drive;
 mod place;
 mod transform;
+mod uncertainty;
 mod urdf;
 mod validate;
 
 pub use crate::spec::JointKind;
 pub use definite::{Indefinite, indefinite, indefinite_among};
 pub use transform::Transform;
+pub use uncertainty::{MOST_PARAMETERS, Parameter, Uncertainty};
 
 use crate::error::Faults;
 use crate::load::Loaded;
@@ -45,6 +47,8 @@ pub struct Joint {
     pub pose: Transform,
     /// Everything that moves with this joint, in its moved frame.
     pub body: Body,
+    /// Pose of the link frame of the file (DH frame, URDF child link) in the moved frame.
+    pub link: Transform,
     /// Reflected rotor inertia, joint side, kg·m² (kg for a prismatic joint).
     pub armature: f64,
     /// Viscous friction B_ii, N·m·s/rad (N·s/m).

@@ -22,10 +22,10 @@ pub use torque::{Rates, peak_torque, torque_error};
 
 use rayon::prelude::*;
 
-use crate::lagrangian::{Entry, Lagrangian};
+use crate::lagrangian::{Combination, Entry, Lagrangian};
 use crate::measure::Domain;
 use crate::motion::Motion;
-use crate::reduction::Reduced;
+use crate::reduction::{Reduced, plus};
 use polynomial::Polynomial;
 use region::{Region, reach};
 use residual::Residual;
@@ -76,6 +76,8 @@ pub struct Certificate {
     pub witness: Vec<f64>,
     /// The instant of the motion to which that position belongs, s; `None` over a workspace.
     pub time: Option<f64>,
+    /// The uncertain parameters there, counted from the arm's own.
+    pub parameters: Vec<f64>,
     /// Boxes that branch and bound enclosed.
     pub boxes: usize,
 }
@@ -87,7 +89,8 @@ impl Certificate {
     }
 }
 
-/// A certificate for each coefficient; zero for those that are not simplified. The same on any number of threads.
+/// A certificate for each coefficient over the domain and all uncertain parameters; zero for those that are exact. The
+/// same on any number of threads.
 pub fn certified(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
@@ -99,38 +102,89 @@ pub fn certified(
     residuals(lagrangian, reduced, domain, motion)
         .into_par_iter()
         .enumerate()
-        .map(|(m, residual)| {
-            let Some(residual) = residual else { return Certificate::default() };
-            let region = Region::new(domain, motion, &residual.polynomial.joints);
-            let size: f64 = lagrangian.coefficients[m].terms.iter().map(|(_, k)| k.abs()).sum();
-            let proof = branch::maximum(&residual, &region, effort, FLOOR * size);
-            let rounding = rounding::published(lagrangian, m, &reduced.combinations[m], &reach);
-            let bound = (proof.upper + rounding).next_up();
-            let (time, witness) = region.position(lagrangian.dof, &proof.found.x);
-            Certificate { bound, found: proof.found.height, witness, time, boxes: proof.boxes }
+        .map(|(m, residuals)| {
+            let coefficient = &lagrangian.coefficients[m];
+            let terms = coefficient.terms.iter().chain(coefficient.variations.iter().flatten());
+            let size: f64 = terms.map(|(_, k)| k.abs()).sum();
+            let prove = |residual: &Residual| {
+                let region = Region::new(domain, motion, &residual.polynomial.joints);
+                let proof = branch::maximum(residual, &region, effort, FLOOR * size);
+                let (time, witness) = region.position(lagrangian.dof, &proof.found.x);
+                (proof, time, witness)
+            };
+            let proofs: Vec<_> = residuals.iter().map(prove).collect();
+            let Some(upper) = proofs.iter().map(|(proof, ..)| proof.upper).reduce(f64::max) else {
+                return Certificate::default();
+            };
+            let boxes = proofs.iter().map(|(proof, ..)| proof.boxes).sum();
+            let rounding = rounding::published(lagrangian, m, reduced, &reach);
+            let bound = (upper + rounding).next_up();
+            let best = proofs.into_iter().enumerate().reduce(|best, other| {
+                if other.1.0.found.height > best.1.0.found.height { other } else { best }
+            });
+            let Some((index, (proof, time, witness))) = best else { return Certificate::default() };
+            let parameters = vertex(&active(lagrangian, reduced, m), lagrangian, index);
+            Certificate { bound, found: proof.found.height, witness, time, parameters, boxes }
         })
         .collect()
 }
 
-/// The residuals of the simplified coefficients, in order; `None` for the others.
+/// What is left out of each coefficient, in order, at every vertex of the box of the uncertain parameters on which that
+/// depends; nothing for coefficients that are exact.
 fn residuals(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     domain: &Domain,
     motion: Option<&Motion>,
-) -> Vec<Option<Residual>> {
+) -> Vec<Vec<Residual>> {
     let reach = reach(domain, motion);
     (0..lagrangian.coefficients.len())
         .into_par_iter()
         .map(|m| {
-            if !reduced.simplified[m] {
-                return None;
-            }
-            let terms = reduced.residual(lagrangian, m);
-            let polynomial = Polynomial::new(terms.iter().map(|&(l, k)| (&lagrangian.functions[l], k)));
-            Some(Residual::new(polynomial, domain, motion, &reach))
+            let prepare = |terms: Combination| {
+                let polynomial =
+                    Polynomial::new(terms.iter().map(|&(l, k)| (&lagrangian.functions[l], k)));
+                Residual::new(polynomial, domain, motion, &reach)
+            };
+            at_vertices(lagrangian, reduced, m).into_iter().map(prepare).collect()
         })
         .collect()
+}
+
+/// α_m − α̂_m at the vertices of the box of the uncertain parameters on which it depends. As it is affine in these, its
+/// largest absolute value over the box stands at one of them, whatever q.
+pub fn at_vertices(lagrangian: &Lagrangian, reduced: &Reduced, m: usize) -> Vec<Combination> {
+    let active = active(lagrangian, reduced, m);
+    if !reduced.simplified[m] && active.is_empty() {
+        return Vec::new();
+    }
+    let own = reduced.residual(lagrangian, m);
+    (0..1_usize << active.len())
+        .map(|index| {
+            let u = vertex(&active, lagrangian, index);
+            active.iter().fold(own.clone(), |sum, &k| {
+                plus(&sum, u[k], &reduced.residual_variation(lagrangian, m, k))
+            })
+        })
+        .collect()
+}
+
+/// The uncertain parameters on which α_m − α̂_m depends.
+fn active(lagrangian: &Lagrangian, reduced: &Reduced, m: usize) -> Vec<usize> {
+    let varies = |&k: &usize| {
+        let [low, high] = lagrangian.ranges[k];
+        low < high && !reduced.residual_variation(lagrangian, m, k).is_empty()
+    };
+    (0..lagrangian.ranges.len()).filter(varies).collect()
+}
+
+/// Vertex number `index` of the box of the `active` parameters; the others stay at 0.
+fn vertex(active: &[usize], lagrangian: &Lagrangian, index: usize) -> Vec<f64> {
+    let mut u = vec![0.0; lagrangian.ranges.len()];
+    for (bit, &k) in active.iter().enumerate() {
+        u[k] = lagrangian.ranges[k][index >> bit & 1];
+    }
+    u
 }
 
 /// Element-by-element bounds (26)–(28) over a domain, zero where the model is exact.
@@ -140,6 +194,8 @@ pub struct Bounds {
     pub d: Vec<Vec<f64>>,
     /// Δh_ijk, n×n×n.
     pub h: Vec<Vec<Vec<f64>>>,
+    /// ΔB of the diagonal viscous friction, n.
+    pub b: Vec<f64>,
     /// ΔG, n.
     pub g: Vec<f64>,
 }
@@ -148,13 +204,19 @@ impl Bounds {
     /// True where every bound is a finite number.
     pub fn is_finite(&self) -> bool {
         let h = self.h.iter().flatten();
-        self.d.iter().chain(h).chain([&self.g]).flatten().all(|v| v.is_finite())
+        self.d.iter().chain(h).chain([&self.b, &self.g]).flatten().all(|v| v.is_finite())
     }
 
-    /// Spreads one bound for each coefficient over the places where it stands.
+    /// Spreads one bound for each coefficient over the places where it stands; ΔB = 0.
     pub fn new(lagrangian: &Lagrangian, deltas: &[f64]) -> Self {
         let n = lagrangian.dof;
-        let mut out = Self { d: vec![vec![0.0; n]; n], h: vec![vec![vec![0.0; n]; n]; n], g: vec![0.0; n] };
+        let zero = vec![0.0; n];
+        let mut out = Self {
+            d: vec![zero.clone(); n],
+            h: vec![vec![zero.clone(); n]; n],
+            b: zero.clone(),
+            g: zero,
+        };
         for (coefficient, &delta) in lagrangian.coefficients.iter().zip(deltas) {
             for place in &coefficient.places {
                 match place.entry {

@@ -11,8 +11,11 @@
 //! - C, the exact α_m as computed from the arm: the recursion behind each sample (≤ 512 roundings), the transform
 //!   along each axis: γ_1024 Σ|k_l| sup|ψ_l|;
 //! - X, what the expansion dropped as rounding noise: [`Lagrangian::truncation`] times the largest monomial.
+//!
+//! Uncertain parameters add the same three for every ∂α_m/∂u_k and ∂α̂_m/∂u_k, times the largest |u_k|.
 
 use crate::lagrangian::{Combination, Lagrangian};
+use crate::reduction::Reduced;
 
 /// Relative rounding of one enclosure.
 pub const ENCLOSURE: f64 = gamma(1024.0);
@@ -23,14 +26,22 @@ pub const fn gamma(k: f64) -> f64 {
     ku / (1.0 - ku)
 }
 
-/// E + C + X for coefficient `m` with the simplified combination `kept`, where |q_j| ≤ `reach`.
-pub fn published(lagrangian: &Lagrangian, m: usize, kept: &Combination, reach: &[f64]) -> f64 {
+/// E + C + X for coefficient `m` of the simplified model, where |q_j| ≤ `reach`.
+pub fn published(lagrangian: &Lagrangian, m: usize, reduced: &Reduced, reach: &[f64]) -> f64 {
     let size = |l: usize| monomial(lagrangian, l, reach);
     let sum = |terms: &Combination| -> f64 { terms.iter().map(|&(l, k)| k.abs() * size(l)).sum() };
-    let evaluation = gamma(64.0 + kept.len() as f64) * sum(kept);
-    let exact = gamma(1024.0) * sum(&lagrangian.coefficients[m].terms);
     let largest = reach.iter().fold(1.0, |p: f64, &q| p * (q * q).max(1.0));
-    evaluation + exact + lagrangian.truncation * largest
+    let kept = &reduced.combinations[m];
+    let evaluation = |terms: &Combination| gamma(64.0 + terms.len() as f64) * sum(terms);
+    let exact = |terms: &Combination| gamma(1024.0) * sum(terms);
+    let coefficient = &lagrangian.coefficients[m];
+    let own = evaluation(kept) + exact(&coefficient.terms) + lagrangian.truncation * largest;
+    let varied = lagrangian.ranges.iter().enumerate().map(|(k, [low, high])| {
+        let learnt = reduced.variations.get(m).map_or(0.0, |v| evaluation(&v[k]));
+        let rest = exact(&coefficient.variations[k]) + lagrangian.variation_truncation[k] * largest;
+        high.max(-low) * (learnt + rest)
+    });
+    own + varied.sum::<f64>()
 }
 
 /// sup|ψ_l|.

@@ -146,6 +146,7 @@ fn arm(links: &[Link]) -> Arm {
             kind: JointKind::Revolute,
             pose,
             body: moved(&end, mass, pseudo, moment),
+            link: Transform::IDENTITY,
             armature: 0.0,
             viscous_friction: 0.0,
             coulomb_friction: [0.0; 2],
