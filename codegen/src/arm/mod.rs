@@ -88,6 +88,8 @@ pub struct Limits {
 pub struct Built {
     /// The arm.
     pub arm: Arm,
+    /// All arms that its controller must bear.
+    pub uncertainty: Uncertainty,
     /// One sentence each, naming file, field and value.
     pub warnings: Vec<String>,
 }
@@ -137,7 +139,13 @@ impl Arm {
         if !arm.joints.iter().all(|j| j.body.is_finite() && sane(&j.pose)) || !sane(&arm.tip) {
             faults.push("arm", "holds lengths and masses whose products overflow", "write them in SI units");
         }
-        (faults.count() == before).then_some(Built { arm, warnings })
+        if faults.count() > before {
+            return None;
+        }
+        let ranges = loaded.spec.control.as_ref().and_then(|control| control.uncertainty.as_ref());
+        let uncertainty =
+            ranges.map(|ranges| Uncertainty::new(ranges, &arm, spec, &loaded.path, faults)).unwrap_or_default();
+        (faults.count() == before).then_some(Built { arm, uncertainty, warnings })
     }
 
     /// Number of joints n.

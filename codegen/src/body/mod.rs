@@ -3,11 +3,13 @@
 mod expanded;
 mod harmonics;
 mod recursive;
+mod regressor;
 #[cfg(test)]
 mod tests;
 
 pub use expanded::expanded;
 pub use recursive::recursive;
+pub use regressor::{Regressor, regressor};
 
 use crate::arm::Arm;
 use crate::graph::Graph;

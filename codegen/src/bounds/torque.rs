@@ -52,7 +52,7 @@ impl Rates {
     }
 
     /// Ū_m of row `i`: the most that multiplies α_m there, over all its places.
-    fn multipliers(&self, lagrangian: &Lagrangian, i: usize) -> Vec<f64> {
+    pub(crate) fn multipliers(&self, lagrangian: &Lagrangian, i: usize) -> Vec<f64> {
         let (a, v, w) = (&self.reference_acceleration, &self.speed, &self.reference_speed);
         let of = |entry: Entry| match entry {
             Entry::D(r, c) if r == i => a[c],

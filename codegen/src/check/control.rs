@@ -25,6 +25,7 @@ pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut F
     entries(position, &initial.position, joints, |v| v >= 0.0, wanted, faults);
     entries(velocity, &initial.velocity, joints, |v| v >= 0.0, wanted, faults);
     delta_c1(control, joints, faults);
+    adaptation(control, faults);
     definite("control.W", &control.w, joints, faults);
     let pqq = definite("control.Pqq", &control.pqq, joints, faults);
     let omega = definite("control.Omega", &control.omega, joints, faults);
@@ -35,16 +36,33 @@ pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut F
 
 /// ΔC1 has its place in one variant of one law; whether it is large enough takes the bounds to see.
 fn delta_c1(control: &ControlSpec, joints: Option<usize>, faults: &mut Faults) {
-    if control.law != LawSpec::Report && control.coriolis_term != CoriolisTermSpec::Matrix {
+    if !control.law.has_bracket() && control.coriolis_term != CoriolisTermSpec::Matrix {
         let mend = "remove it, or choose law `report`";
-        faults.push("control.coriolis_term", "goes with law `report` alone", mend);
+        faults.push("control.coriolis_term", "goes with the laws `report` and `adaptive` alone", mend);
     }
     let Some(spec) = &control.delta_c1 else { return };
-    if control.law != LawSpec::Report || control.coriolis_term != CoriolisTermSpec::Matrix {
+    if !control.law.has_bracket() || control.coriolis_term != CoriolisTermSpec::Matrix {
         let mend = "remove it, or choose law `report` with `coriolis_term` `matrix`";
         faults.push("control.delta_c1", "has no place in this law", mend);
     }
     square("control.delta_c1", spec, joints, faults);
+}
+
+/// What is to be learnt takes the intervals that it lies in, and a law that learns.
+fn adaptation(control: &ControlSpec, faults: &mut Faults) {
+    if control.law == LawSpec::Adaptive && control.uncertainty.is_none() {
+        faults.push(
+            "control.uncertainty",
+            "is missing, and law `adaptive` has nothing to learn",
+            "write the intervals of what is uncertain, or take law `report` or `tight`",
+        );
+    }
+    let Some(adaptation) = &control.adaptation else { return };
+    if control.law != LawSpec::Adaptive {
+        faults.push("control.adaptation", "goes with law `adaptive` alone", "remove it, or choose law `adaptive`");
+    }
+    let field = "control.adaptation.Ptheta";
+    entries(field, &adaptation.p_theta, None, |v| v > 0.0, "a number above 0", faults);
 }
 
 /// The matrix of a gain, if it is symmetric positive definite and of the right size.

@@ -57,6 +57,7 @@ struct BoundsView<'a> {
     D: &'a [Vec<f64>],
     H: &'a [Vec<Vec<f64>>],
     G: &'a [f64],
+    B: Vec<Vec<f64>>,
     /// ΔC of equation (30); absent without a controller.
     C: Option<&'a [Vec<f64>]>,
     /// Largest bound/found over the simplified coefficients.
@@ -164,6 +165,7 @@ fn view(generation: &Generation) -> Inspection<'_> {
             D: &bounds.d,
             H: &bounds.h,
             G: &bounds.g,
+            B: diagonal(&bounds.b),
             C: design.as_ref().map(|design| design.delta_c.as_slice()),
             worst_ratio: generation.certificates.iter().map(|c| c.ratio()).fold(1.0, f64::max),
             estimate: estimated(generation),
@@ -186,10 +188,15 @@ fn view(generation: &Generation) -> Inspection<'_> {
     }
 }
 
+fn diagonal(values: &[f64]) -> Vec<Vec<f64>> {
+    let row = |i: usize| (0..values.len()).map(|j| if i == j { values[i] } else { 0.0 }).collect();
+    (0..values.len()).map(row).collect()
+}
+
 fn estimated(generation: &Generation) -> Option<EstimateView> {
     let Generation { lagrangian, reduced, domain, motion, .. } = generation;
     let deltas = estimate(lagrangian, reduced, domain, motion.as_ref())?;
-    let Bounds { d, h, g } = Bounds::new(lagrangian, &deltas);
+    let Bounds { d, h, g, .. } = Bounds::new(lagrangian, &deltas);
     Some(EstimateView { D: d, H: h, G: g })
 }
 

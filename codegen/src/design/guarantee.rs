@@ -3,12 +3,12 @@
 use super::inertia::Inertia;
 use super::reach::{Course, Envelope, InertiaBounds, fastest, inertia_bounds, initial_level, total};
 use super::region::{cells, outside, reach, start, width};
+use super::adaptation::{Adaptation, Learning, regression};
 use super::{Problem, family};
 use crate::arm::Arm;
 use crate::bounds::peak_torque;
 use crate::error::Error;
 use crate::motion::Motion;
-use crate::spec::LawSpec;
 
 /// Halvings of the interval in which the largest initial error lies.
 const HALVINGS: u32 = 30;
@@ -25,8 +25,8 @@ pub struct Guarantee {
     pub holds: bool,
     /// Why not; empty where it holds.
     pub reasons: Vec<String>,
-    /// Longest period with T (λ_max(D⁻¹K) + λ_max(P12)) < 2 over the domain, s; K is the whole gain on s, with ΔC1 and the
-    /// slope ρ/φ inside the layer. The sign function has no slope to count: its chatter counts in `final_error`.
+    /// Longest period with T (λ_max(D⁻¹K) + λ_max(P12)) < 2 over the domain, s; K is the whole gain on s, with ΔC1, the
+    /// slope ρ/φ inside the layer and what is learnt within a period. The sign function has no slope to count: its chatter counts in `final_error`.
     pub period_max: f64,
     /// What |q_e| ends below, by joint, rad or m.
     pub final_error: Vec<f64>,
@@ -58,6 +58,7 @@ pub(super) struct Parts<'a> {
     /// Initial position and velocity error.
     pub(super) initial: [Vec<f64>; 2],
     pub(super) delta_c1: Option<Vec<Vec<f64>>>,
+    pub(super) adaptation: Option<&'a Adaptation>,
 }
 
 /// The joints whose torque limit is less than what the desired motion alone takes.
@@ -80,16 +81,16 @@ impl Parts<'_> {
         let n = arm.dof();
         let own = width(domain, n).unwrap_or(vec![0.0; n]);
         let over = cells(domain, motion, &own);
-        let about = |width: &[f64]| Inertia::new(arm, lagrangian, &reach(&cells(domain, motion, width), n));
         let wide: Vec<f64> = own.iter().zip(&self.initial[0]).map(|(a, b)| a.max(*b).max(1.0)).collect();
-        let inertia = about(&wide);
+        let reach = reach(&cells(domain, motion, &wide), n);
+        let inertia = Inertia::of_family(arm, self.problem.uncertainty, lagrangian, &reach);
         let facts = inertia_bounds(&inertia, over.clone(), self.gains, &self.form);
         let [position, velocity] = &self.initial;
         let level = |position: &[f64]| {
             let cell = start(domain, motion, position);
             initial_level(&inertia, self.gains, cell, position, velocity)
         };
-        let course = self.course(&facts);
+        let course = self.course(&facts, &reach)?;
         let v_max = level(position);
         let settled = course.settle(v_max, position)?;
         let mut reasons = Vec::new();
@@ -108,8 +109,8 @@ impl Parts<'_> {
         let k_star = family::smallest_multiple(&delta_c);
         let delta_c1 = self.delta_c1.clone().unwrap_or_else(|| family::multiple_of_identity(k_star, n));
 
-        let gain = course.gain(&envelope.position_error, &envelope.velocity_error, &delta_c);
-        let period_max = self.longest_period(&inertia, over, &delta_c1, &gain);
+        let load = course.load(&envelope.position_error, &envelope.velocity_error, &delta_c);
+        let period_max = self.longest_period(&inertia, over, &delta_c1, &course, &load.gain);
         let final_error = course.final_error(&envelope, &delta_c)?;
 
         if !facts.certified {
@@ -122,13 +123,11 @@ impl Parts<'_> {
             ));
         }
         reasons.extend(motion.map_or(Vec::new(), |motion| beyond_torque_limits(arm, motion)));
-        if control.law != LawSpec::Exact && self.layer.is_none() && course.ball(&gain, true) > envelope.level
-        {
+        let chatter = course.ball(&load, true) + course.parameter_energy();
+        if control.law.is_robust() && self.layer.is_none() && chatter > envelope.level {
             reasons.push(format!(
                 "the sign function, held for {} s, may raise V from {:.3e} J to {:.3e} J: take a boundary layer or a shorter period",
-                control.period,
-                envelope.level,
-                course.ball(&gain, true)
+                control.period, envelope.level, chatter
             ));
         }
         let leaves = outside(domain, motion, arm, &envelope.position_error);
@@ -138,7 +137,7 @@ impl Parts<'_> {
         } else if leaves.is_empty() || width(domain, n).is_none() {
             Some(envelope.position_error.clone())
         } else {
-            self.smallest_tube(&inertia, &envelope, position)?
+            self.smallest_tube(&inertia, &envelope, position, &reach)?
         };
         let inside = |share: f64, shape: &[f64]| -> Result<bool, Error> {
             let scaled: Vec<f64> = shape.iter().map(|e| e * share).collect();
@@ -161,12 +160,15 @@ impl Parts<'_> {
         Ok(Judgement { envelope, delta_c, k_star, delta_c1, guarantee })
     }
 
-    fn course<'b>(&'b self, inertia: &'b InertiaBounds) -> Course<'b> {
+    fn course<'b>(&'b self, inertia: &'b InertiaBounds, reach: &[f64]) -> Result<Course<'b>, Error> {
         let Problem { arm, motion, bounds, control, .. } = *self.problem;
         let limit = |of: fn(&crate::arm::Limits) -> Option<f64>| -> Vec<f64> {
             arm.joints.iter().map(|joint| of(&joint.limits).unwrap_or(0.0)).collect()
         };
-        Course {
+        let learning = |adaptation| {
+            Ok(Learning::new(adaptation, regression(self.problem)?, self.problem.lagrangian, reach))
+        };
+        Ok(Course {
             law: control.law,
             term: control.coriolis_term,
             gains: self.gains,
@@ -179,7 +181,8 @@ impl Parts<'_> {
             layer: self.layer,
             period: control.period,
             lag: motion.map_or_else(|| vec![0.0; arm.dof()], |m| super::lag(arm, m, control.period)),
-        }
+            learning: self.adaptation.map(learning).transpose()?,
+        })
     }
 
     fn longest_period(
@@ -187,15 +190,21 @@ impl Parts<'_> {
         inertia: &Inertia,
         over: Vec<super::inertia::Cell>,
         delta_c1: &[Vec<f64>],
+        course: &Course,
         gain: &[f64],
     ) -> f64 {
         let control = self.problem.control;
         let n = gain.len();
-        let robust = control.law != LawSpec::Exact;
-        let slope: Vec<f64> = match self.layer {
-            Some(phi) if robust => gain.iter().zip(phi).map(|(rho, phi)| rho / phi).collect(),
+        let mut slope: Vec<f64> = match self.layer {
+            Some(phi) if control.law.is_robust() => gain.iter().zip(phi).map(|(rho, phi)| rho / phi).collect(),
             _ => vec![0.0; n],
         };
+        if let Some(learning) = &course.learning {
+            // Stability of small motions: what learning does in large ones counts in the ball.
+            let (rates, _) = course.rates(&vec![0.0; n], &vec![0.0; n]);
+            let more = learning.gain(&rates, control.period);
+            slope.iter_mut().zip(more).for_each(|(slope, more)| *slope += more);
+        }
         let zero = vec![vec![0.0; n]; n];
         let more = if self.has_matrix() { delta_c1 } else { &zero };
         let pull = super::linalg::symmetric_eigenvalues(&self.gains.p12).last().copied().unwrap_or(0.0);
@@ -204,7 +213,7 @@ impl Parts<'_> {
 
     fn has_matrix(&self) -> bool {
         let control = self.problem.control;
-        control.law == LawSpec::Report && control.coriolis_term == crate::spec::CoriolisTermSpec::Matrix
+        control.law.has_bracket() && control.coriolis_term == crate::spec::CoriolisTermSpec::Matrix
     }
 
     /// Widens the tube to the errors of the one before until it holds them.
@@ -213,12 +222,13 @@ impl Parts<'_> {
         inertia: &Inertia,
         envelope: &Envelope,
         start: &[f64],
+        reach: &[f64],
     ) -> Result<Option<Vec<f64>>, Error> {
         let Problem { domain, motion, .. } = *self.problem;
         let mut tube = envelope.position_error.clone();
         for _ in 0..ROUNDS {
             let facts = inertia_bounds(inertia, cells(domain, motion, &tube), self.gains, &self.form);
-            let Some(next) = self.course(&facts).settle(envelope.v_max, start)? else { return Ok(None) };
+            let Some(next) = self.course(&facts, reach)?.settle(envelope.v_max, start)? else { return Ok(None) };
             let next = next.position_error;
             if facts.certified && next.iter().zip(&tube).all(|(a, b)| *a <= b * (1.0 + 1e-9)) {
                 return Ok(Some(next));

@@ -1,5 +1,6 @@
 //! The numbers of the tracking law and what they promise: gains, ΔC, ΔC1, switching, limits, guarantee.
 
+mod adaptation;
 mod family;
 mod gains;
 mod guarantee;
@@ -12,13 +13,14 @@ mod tests;
 
 use std::path::Path;
 
+pub use adaptation::Adaptation;
 pub use family::{least_eigenvalue, outweighs, smallest_multiple};
 pub use gains::Gains;
 pub use guarantee::Guarantee;
 pub use inertia::{Cell, Extremes, Inertia};
 pub use reach::{Envelope, InertiaBounds};
 
-use crate::arm::Arm;
+use crate::arm::{Arm, Uncertainty};
 use crate::bounds::Bounds;
 use crate::check::{matrix, vector};
 use crate::dynamics::inverse_dynamics;
@@ -26,6 +28,7 @@ use crate::error::{Error, Faults};
 use crate::lagrangian::Lagrangian;
 use crate::measure::Domain;
 use crate::motion::Motion;
+use crate::reduction::Regression;
 use crate::spec::{ControlSpec, CoriolisTermSpec, LawSpec, OnFaultSpec};
 
 /// Everything a controller needs beside its model.
@@ -57,6 +60,8 @@ pub struct Design {
     pub coulomb: Vec<[f64; 2]>,
     /// What to command when a measurement is not finite.
     pub on_fault: OnFaultSpec,
+    /// What law `adaptive` learns.
+    pub adaptation: Option<Adaptation>,
     /// What all that promises.
     pub guarantee: Guarantee,
 }
@@ -78,6 +83,10 @@ pub struct Problem<'a> {
     pub domain: &'a Domain,
     /// The desired motion.
     pub motion: Option<&'a Motion>,
+    /// All arms that the law must bear.
+    pub uncertainty: &'a Uncertainty,
+    /// The parameters of a law that learns.
+    pub regression: Option<&'a Regression>,
     /// Whether to seek the smallest sufficient tube even where no guarantee is required.
     pub seek_tube: bool,
 }
@@ -107,6 +116,7 @@ pub fn design(problem: &Problem) -> Result<Design, Error> {
         let problem = "gives gains that overflow, or are too far apart to compute with";
         Error::input(file, "control", problem, "write W, Pqq and Omega in SI units")
     })?;
+    let adaptation = Adaptation::new(problem)?;
     let initial = &control.initial_error;
     let given = |m| checked("control.delta_c1", matrix(m, n));
     let judgement = guarantee::Parts {
@@ -120,6 +130,7 @@ pub fn design(problem: &Problem) -> Result<Design, Error> {
             checked("control.initial_error.velocity", vector(&initial.velocity, n))?,
         ],
         delta_c1: control.delta_c1.as_ref().map(given).transpose()?,
+        adaptation: adaptation.as_ref(),
     }
     .judge()?;
     let guarantee::Judgement { envelope, delta_c, k_star, delta_c1, guarantee } = judgement;
@@ -137,6 +148,7 @@ pub fn design(problem: &Problem) -> Result<Design, Error> {
         torque_limit: arm.joints.iter().map(|joint| joint.limits.torque).collect(),
         coulomb: arm.joints.iter().map(coulomb).collect(),
         on_fault: control.on_fault,
+        adaptation,
         guarantee,
     };
     let mut faults = Faults::of(file);

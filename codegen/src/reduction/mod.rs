@@ -8,6 +8,7 @@ mod gram_schmidt;
 mod lu;
 mod minimax;
 mod reestimate;
+mod regression;
 mod samples;
 mod shared;
 
@@ -16,6 +17,7 @@ pub use extremes::extremes;
 pub use gram_schmidt::{GramSchmidt, Pick};
 pub use minimax::minimax;
 pub use reestimate::reestimate;
+pub use regression::{Learnt, Regression};
 pub use samples::Samples;
 pub use shared::shared;
 

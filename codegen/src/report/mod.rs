@@ -37,5 +37,7 @@ fn law_name(law: LawSpec, boundary_layer: bool) -> &'static str {
         (LawSpec::Report, true) => "law (34), boundary layer",
         (LawSpec::Tight, false) => "tight law, sign function",
         (LawSpec::Tight, true) => "tight law, boundary layer",
+        (LawSpec::Adaptive, false) => "adaptive law (46), sign function",
+        (LawSpec::Adaptive, true) => "adaptive law (46), boundary layer",
     }
 }

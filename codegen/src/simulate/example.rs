@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::{Comparison, Scenario, simulate};
-use crate::arm::{Arm, Body, Joint, JointKind, Limits, Transform};
+use crate::arm::{Arm, Body, Joint, JointKind, Limits, Transform, Uncertainty};
 use crate::body::{expanded, recursive};
 use crate::bounds::{Bounds, Effort, certified};
 use crate::design::{Design, Problem, design};
@@ -55,9 +55,7 @@ impl Example {
                 (expanded(&arm, &lagrangian, &reduced), Bounds::new(&lagrangian, &deltas))
             }
             None => {
-                let bounds =
-                    Bounds { d: vec![vec![0.0; n]; n], h: vec![vec![vec![0.0; n]; n]; n], g: vec![0.0; n] };
-                (recursive(&arm), bounds)
+                (recursive(&arm), Bounds::new(&lagrangian, &vec![0.0; lagrangian.coefficients.len()]))
             }
         };
         let control = ControlSpec {
@@ -77,6 +75,8 @@ impl Example {
             require_guarantee: false,
             compensate_coulomb: false,
             on_fault: OnFaultSpec::Hold,
+            uncertainty: None,
+            adaptation: None,
         };
         let design = design(&Problem {
             file: Path::new("example.json"),
@@ -86,6 +86,8 @@ impl Example {
             bounds: &bounds,
             domain: &tube,
             motion: Some(&motion),
+            uncertainty: &Uncertainty::default(),
+            regression: None,
             seek_tube: false,
         })
         .unwrap();
@@ -113,6 +115,7 @@ impl Example {
             design: &self.design,
             code: &self.code,
             bounds: &self.bounds,
+            regressor: None,
             initial: &self.initial,
             simulation: &self.simulation,
         })
