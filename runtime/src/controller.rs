@@ -172,11 +172,8 @@ impl<M: Model<N>, L: Law<M, N>, const N: usize> Controller<M, L, N> {
 
     /// Forgets what was learnt and commanded, as after [`Controller::new`].
     pub fn reset(&mut self) {
-        self.memory = Memory {
-            law: self.law.initial_state(),
-            last_command: [M::Scalar::ZERO; N],
-            last_position: None,
-        };
+        self.memory =
+            Memory { law: self.law.initial_state(), last_command: [M::Scalar::ZERO; N], last_position: None };
     }
 
     fn finite(&self, x: &[M::Scalar; N], quantity: Quantity) -> Result<(), Fault<M::Scalar, N>> {

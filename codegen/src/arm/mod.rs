@@ -143,8 +143,9 @@ impl Arm {
             return None;
         }
         let ranges = loaded.spec.control.as_ref().and_then(|control| control.uncertainty.as_ref());
-        let uncertainty =
-            ranges.map(|ranges| Uncertainty::new(ranges, &arm, spec, &loaded.path, faults)).unwrap_or_default();
+        let uncertainty = ranges
+            .map(|ranges| Uncertainty::new(ranges, &arm, spec, &loaded.path, faults))
+            .unwrap_or_default();
         (faults.count() == before).then_some(Built { arm, uncertainty, warnings })
     }
 

@@ -5,7 +5,9 @@ use std::path::Path;
 use super::place::Place;
 use super::{Arm, Body};
 use crate::error::Faults;
-use crate::spec::{ArmSpec, LinkUncertaintySpec, PayloadUncertaintySpec, SymmetricIntervalsSpec, UncertaintySpec};
+use crate::spec::{
+    ArmSpec, LinkUncertaintySpec, PayloadUncertaintySpec, SymmetricIntervalsSpec, UncertaintySpec,
+};
 
 /// Most uncertain numbers of inertia: their box has 2^10 vertices.
 pub const MOST_PARAMETERS: usize = 10;
@@ -64,7 +66,11 @@ impl Uncertainty {
             let Some(number) = arm.joints.iter().position(|joint| joint.name == link.joint) else {
                 let names: Vec<&str> = arm.joints.iter().map(|joint| joint.name.as_str()).collect();
                 let mend = format!("name one of {}", names.join(", "));
-                place.at("joint").fault(faults, format!("is {:?}, which is no joint of the arm", link.joint), mend);
+                place.at("joint").fault(
+                    faults,
+                    format!("is {:?}, which is no joint of the arm", link.joint),
+                    mend,
+                );
                 continue;
             };
             let joint = &arm.joints[number];
@@ -154,7 +160,8 @@ impl Given {
         faults: &mut Faults,
     ) -> Vec<Parameter> {
         let at = self.at.unwrap_or_default();
-        let mut numbers = vec![("mass".to_string(), self.mass, nominal.mass, Body::from_com(1.0, at, [[0.0; 3]; 3]), true)];
+        let mut numbers =
+            vec![("mass".to_string(), self.mass, nominal.mass, Body::from_com(1.0, at, [[0.0; 3]; 3]), true)];
         for i in 0..3 {
             let mut body = Body::default();
             body.first_moment[i] = 1.0;
@@ -187,7 +194,9 @@ impl Given {
         for (field, range, value, body, grows) in numbers {
             let Some(range) = range else { continue };
             let not_negative = field == "mass";
-            let Some([low, high]) = about(range, value, not_negative, &place.at(&field), faults) else { continue };
+            let Some([low, high]) = about(range, value, not_negative, &place.at(&field), faults) else {
+                continue;
+            };
             let name = format!("{name}.{field}");
             out.push(Parameter { name, joint, body: body.moved(frame), nominal: value, low, high, grows });
         }

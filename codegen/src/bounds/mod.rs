@@ -142,8 +142,7 @@ fn residuals(
         .into_par_iter()
         .map(|m| {
             let prepare = |terms: Combination| {
-                let polynomial =
-                    Polynomial::new(terms.iter().map(|&(l, k)| (&lagrangian.functions[l], k)));
+                let polynomial = Polynomial::new(terms.iter().map(|&(l, k)| (&lagrangian.functions[l], k)));
                 Residual::new(polynomial, domain, motion, &reach)
             };
             at_vertices(lagrangian, reduced, m).into_iter().map(prepare).collect()
@@ -162,9 +161,9 @@ pub fn at_vertices(lagrangian: &Lagrangian, reduced: &Reduced, m: usize) -> Vec<
     (0..1_usize << active.len())
         .map(|index| {
             let u = vertex(&active, lagrangian, index);
-            active.iter().fold(own.clone(), |sum, &k| {
-                plus(&sum, u[k], &reduced.residual_variation(lagrangian, m, k))
-            })
+            active
+                .iter()
+                .fold(own.clone(), |sum, &k| plus(&sum, u[k], &reduced.residual_variation(lagrangian, m, k)))
         })
         .collect()
 }
@@ -211,12 +210,8 @@ impl Bounds {
     pub fn new(lagrangian: &Lagrangian, deltas: &[f64]) -> Self {
         let n = lagrangian.dof;
         let zero = vec![0.0; n];
-        let mut out = Self {
-            d: vec![zero.clone(); n],
-            h: vec![vec![zero.clone(); n]; n],
-            b: zero.clone(),
-            g: zero,
-        };
+        let mut out =
+            Self { d: vec![zero.clone(); n], h: vec![vec![zero.clone(); n]; n], b: zero.clone(), g: zero };
         for (coefficient, &delta) in lagrangian.coefficients.iter().zip(deltas) {
             for place in &coefficient.places {
                 match place.entry {

@@ -59,7 +59,11 @@ fn adaptation(control: &ControlSpec, faults: &mut Faults) {
     }
     let Some(adaptation) = &control.adaptation else { return };
     if control.law != LawSpec::Adaptive {
-        faults.push("control.adaptation", "goes with law `adaptive` alone", "remove it, or choose law `adaptive`");
+        faults.push(
+            "control.adaptation",
+            "goes with law `adaptive` alone",
+            "remove it, or choose law `adaptive`",
+        );
     }
     let field = "control.adaptation.Ptheta";
     entries(field, &adaptation.p_theta, None, |v| v > 0.0, "a number above 0", faults);

@@ -35,7 +35,8 @@ impl Adaptation {
             Err(Error::input(problem.file, field, problem_is, mend))
         };
         if count == 0 {
-            let mend = "widen an interval of `control.uncertainty`, or take law `report` or `tight`".to_string();
+            let mend =
+                "widen an interval of `control.uncertainty`, or take law `report` or `tight`".to_string();
             return refuse("control.law", "is `adaptive`, and no parameter can vary".to_string(), mend);
         }
         let spec = problem.control.adaptation.clone().unwrap_or_default();
@@ -106,10 +107,14 @@ impl<'a> Learning<'a> {
         out
     }
 
-    /// The most by which the square of an Euler step of `period` s raises V1, per second, W, for |s_i| ≤ `s`.
-    pub(super) fn step(&self, rates: &Rates, s: &[f64], period: f64) -> f64 {
-        let gradient = |column: &Vec<f64>| column.iter().zip(s).map(|(y, s)| y * s).sum::<f64>();
-        let square = |(column, rate): (&Vec<f64>, &f64)| rate * gradient(column) * gradient(column);
+    /// The part of zᵀMz that the square of an Euler step of `period` s takes back, given |(M⁻¹)_ss|.
+    ///
+    /// It raises V1 by ½T²(Yᵀs)ᵀPθθ⁻¹(Yᵀs) a period, and (Y_kᵀs)² ≤ Y_kᵀ(M⁻¹)_ss Y_k · zᵀMz.
+    pub(super) fn step(&self, rates: &Rates, inverse: impl Fn(usize, usize) -> f64, period: f64) -> f64 {
+        let square = |(column, rate): (&Vec<f64>, &f64)| {
+            let row = |i: usize| column.iter().enumerate().map(|(j, y)| inverse(i, j) * y).sum::<f64>();
+            rate * column.iter().enumerate().map(|(i, y)| y * row(i)).sum::<f64>()
+        };
         0.5 * period * self.columns(rates).iter().zip(&self.adaptation.rate).map(square).sum::<f64>()
     }
 

@@ -1,9 +1,9 @@
 //! What is promised of the closed loop, and why not where nothing is.
 
+use super::adaptation::{Adaptation, Learning, regression};
 use super::inertia::Inertia;
 use super::reach::{Course, Envelope, InertiaBounds, fastest, inertia_bounds, initial_level, total};
 use super::region::{cells, outside, reach, start, width};
-use super::adaptation::{Adaptation, Learning, regression};
 use super::{Problem, family};
 use crate::arm::Arm;
 use crate::bounds::peak_torque;
@@ -196,7 +196,9 @@ impl Parts<'_> {
         let control = self.problem.control;
         let n = gain.len();
         let mut slope: Vec<f64> = match self.layer {
-            Some(phi) if control.law.is_robust() => gain.iter().zip(phi).map(|(rho, phi)| rho / phi).collect(),
+            Some(phi) if control.law.is_robust() => {
+                gain.iter().zip(phi).map(|(rho, phi)| rho / phi).collect()
+            }
             _ => vec![0.0; n],
         };
         if let Some(learning) = &course.learning {
@@ -228,7 +230,9 @@ impl Parts<'_> {
         let mut tube = envelope.position_error.clone();
         for _ in 0..ROUNDS {
             let facts = inertia_bounds(inertia, cells(domain, motion, &tube), self.gains, &self.form);
-            let Some(next) = self.course(&facts, reach)?.settle(envelope.v_max, start)? else { return Ok(None) };
+            let Some(next) = self.course(&facts, reach)?.settle(envelope.v_max, start)? else {
+                return Ok(None);
+            };
             let next = next.position_error;
             if facts.certified && next.iter().zip(&tube).all(|(a, b)| *a <= b * (1.0 + 1e-9)) {
                 return Ok(Some(next));

@@ -114,8 +114,9 @@ impl Inertia {
         budget: usize,
         f: impl Fn(&DMatrix<f64>, &DMatrix<f64>) -> Vec<f64> + Sync,
     ) -> Extremes {
-        let pairs: Vec<(usize, Cell)> =
-            (0..self.members.len()).flat_map(|member| cells.iter().map(move |c| (member, c.clone()))).collect();
+        let pairs: Vec<(usize, Cell)> = (0..self.members.len())
+            .flat_map(|member| cells.iter().map(move |c| (member, c.clone())))
+            .collect();
         let mut judged: Vec<Judged> =
             pairs.into_par_iter().map(|(member, cell)| self.judge(member, cell, &f)).collect();
         let mut spent: usize = judged.iter().map(|j| j.vertices).sum();
@@ -145,9 +146,8 @@ impl Inertia {
                 planned += 2 * parent.vertices;
                 children.extend(halves(&parent));
             }
-            let judge = |(member, cell, bound): (usize, Cell, Vec<f64>)| {
-                self.judge(member, cell, &f).within(&bound)
-            };
+            let judge =
+                |(member, cell, bound): (usize, Cell, Vec<f64>)| self.judge(member, cell, &f).within(&bound);
             let children: Vec<Judged> = children.into_par_iter().map(judge).collect();
             spent += children.iter().map(|j| j.vertices).sum::<usize>();
             judged.extend(children);

@@ -53,7 +53,7 @@ pub(super) struct Load {
     pub(super) gain: Vec<f64>,
     /// sup|Yθ_e|, N·m: what a layer that teaches nothing leaves of the wrong parameters.
     taught: Vec<f64>,
-    /// What the Euler steps of the learning add, W.
+    /// The part of zᵀMz that the Euler steps of the learning take back.
     step: f64,
 }
 
@@ -190,7 +190,9 @@ impl Course<'_> {
         Load {
             gain,
             taught: learning.map_or(vec![0.0; n], |learning| learning.torque(&rates)),
-            step: learning.map_or(0.0, |learning| learning.step(&rates, &s, self.period)),
+            step: learning.map_or(0.0, |learning| {
+                learning.step(&rates, |i, j| self.form.inverse[(i, j)].abs(), self.period)
+            }),
         }
     }
 
@@ -198,13 +200,14 @@ impl Course<'_> {
     ///
     /// V̇ ≤ −zᵀMz + c + hᵀ|s| with c = Σρ_iφ_i/4 from the layer and h the torque that nothing outweighs: the lag of a
     /// held torque, and under law (16) the whole error of the model. So V̇ < 0 where √(zᵀMz) > x, x² = c + xη,
-    /// η² = hᵀ|(M⁻¹)_ss|h, and 2V ≤ λ_max(M⁻¹ diag(D, Pqq)) zᵀMz.
+    /// η² = hᵀ|(M⁻¹)_ss|h, and 2V ≤ λ_max(M⁻¹ diag(D, Pqq)) zᵀMz. Where Euler steps take back a part ε of zᵀMz,
+    /// (1 − ε)x² = c + xη.
     ///
     /// A joint inside its layer teaches nothing, so there s_i(Yθ_e)_i stays: with y = sup|Yθ_e|_i the layer costs
     /// max (ρ + y)|s| − ρs²/φ over |s| ≤ φ, which is φ(ρ + y)²/4ρ, or φy where y > ρ.
     pub(super) fn ball(&self, load: &Load, chatter: bool) -> f64 {
         let Load { gain, taught, step } = load;
-        let mut c = *step;
+        let mut c = 0.0;
         let mut h = self.lag.clone();
         match (self.law, self.layer) {
             (LawSpec::Exact, _) => h.iter_mut().zip(gain).for_each(|(h, rho)| *h += rho),
@@ -218,20 +221,24 @@ impl Course<'_> {
                         0.25 * phi * (rho + y) * (rho + y) / rho
                     }
                 };
-                c += gain.iter().zip(phi).zip(taught).map(cost).sum::<f64>();
+                c = gain.iter().zip(phi).zip(taught).map(cost).sum::<f64>();
             }
             (_, None) if chatter => {
                 // A held sign is wrong for at most a period, in which it moves s_j by T Σ|D⁻¹|_jk 2ρ_k.
                 let mobility = &self.inertia.mobility;
                 let sum: f64 = gain.iter().zip(mobility).map(|(rho, m)| rho * libm::sqrt(*m)).sum();
-                c += 4.0 * self.period * sum * sum;
+                c = 4.0 * self.period * sum * sum;
             }
             (_, None) => {}
         }
         let row =
             |i: usize| h.iter().enumerate().map(|(j, h)| self.form.inverse[(i, j)].abs() * h).sum::<f64>();
         let eta = libm::sqrt(h.iter().enumerate().map(|(i, h)| h * row(i)).sum::<f64>());
-        let x = 0.5 * (eta + libm::sqrt(eta * eta + 4.0 * c));
+        let left = 1.0 - step;
+        if left <= 0.0 {
+            return f64::INFINITY;
+        }
+        let x = 0.5 * (eta + libm::sqrt(eta * eta + 4.0 * c * left)) / left;
         0.5 * self.inertia.time * x * x
     }
 

@@ -44,7 +44,13 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
 }
 
 fn bounds(bounds: &Bounds) -> Result<TokenStream, Error> {
-    let zero = bounds.d.iter().flatten().chain(bounds.h.iter().flatten().flatten()).chain(&bounds.b).chain(&bounds.g);
+    let zero = bounds
+        .d
+        .iter()
+        .flatten()
+        .chain(bounds.h.iter().flatten().flatten())
+        .chain(&bounds.b)
+        .chain(&bounds.g);
     if zero.into_iter().all(|&x| x == 0.0) {
         return Ok(quote!(::gramforge_runtime::Bounds::ZERO));
     }

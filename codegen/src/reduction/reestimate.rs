@@ -23,7 +23,8 @@ pub fn reestimate(
 ) -> Reduced {
     let mut wanted: Vec<(usize, usize)> = Vec::new();
     reduced.variations = lagrangian.coefficients.iter().map(|c| c.variations.clone()).collect();
-    for (m, coefficient) in lagrangian.coefficients.iter().enumerate().filter(|(m, _)| reduced.simplified[*m]) {
+    for (m, coefficient) in lagrangian.coefficients.iter().enumerate().filter(|(m, _)| reduced.simplified[*m])
+    {
         let varies = coefficient.variations.iter().enumerate().filter(|(_, terms)| !terms.is_empty());
         wanted.extend(varies.map(|(k, _)| (m, k)));
     }

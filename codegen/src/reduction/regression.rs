@@ -61,9 +61,11 @@ impl Regression {
         for (m, own) in reduced.combinations.iter().enumerate() {
             let mut base = own.clone();
             let variations = &reduced.variations[m];
-            let support: BTreeSet<usize> = [own].into_iter().chain(variations).flatten().map(|t| t.0).collect();
+            let support: BTreeSet<usize> =
+                [own].into_iter().chain(variations).flatten().map(|t| t.0).collect();
             for l in support {
-                let at = |terms: &Combination| terms.iter().find(|(other, _)| *other == l).map_or(0.0, |t| t.1);
+                let at =
+                    |terms: &Combination| terms.iter().find(|(other, _)| *other == l).map_or(0.0, |t| t.1);
                 let initial = at(own);
                 let (mut low, mut high) = (initial, initial);
                 for (v, [down, up]) in variations.iter().zip(&lagrangian.ranges) {
@@ -73,7 +75,8 @@ impl Regression {
                 }
                 if low < high {
                     base.retain(|(other, _)| *other != l);
-                    let name = format!("{} of {}", lagrangian.functions[l], lagrangian.coefficients[m].name());
+                    let name =
+                        format!("{} of {}", lagrangian.functions[l], lagrangian.coefficients[m].name());
                     let effects = vec![(m, vec![(l, 1.0)])];
                     out.parameters.push(Learnt { name, low, initial, high, effects });
                 }

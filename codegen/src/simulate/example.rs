@@ -54,9 +54,7 @@ impl Example {
                 let deltas: Vec<f64> = proofs.iter().map(|proof| proof.bound).collect();
                 (expanded(&arm, &lagrangian, &reduced), Bounds::new(&lagrangian, &deltas))
             }
-            None => {
-                (recursive(&arm), Bounds::new(&lagrangian, &vec![0.0; lagrangian.coefficients.len()]))
-            }
+            None => (recursive(&arm), Bounds::new(&lagrangian, &vec![0.0; lagrangian.coefficients.len()])),
         };
         let control = ControlSpec {
             law: if functions.is_some() { LawSpec::Report } else { LawSpec::Exact },
