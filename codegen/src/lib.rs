@@ -44,6 +44,7 @@ pub mod output;
 pub mod pipeline;
 pub mod reduction;
 pub mod report;
+pub mod reproduce;
 pub mod simulate;
 pub mod spec;
 pub mod spread;

@@ -1,13 +1,18 @@
 //! What a person looks at: tables for the terminal and plots, as text; nothing here writes a file.
 
 mod claims;
+mod figure;
 mod grid;
 mod plot;
+mod reproduction;
 mod series;
 mod table;
 
+pub(crate) use claims::largest_difference;
 pub use claims::{Claim, claims};
+pub(crate) use grid::short;
 pub use plot::plot;
+pub use reproduction::{Figures, figures};
 pub use table::{bounds_table, claims_table, metrics_table, operations_table};
 
 use crate::arm::JointKind;
