@@ -44,6 +44,12 @@ struct Inspection<'a> {
     form: &'static str,
     operations: Costs,
     verdict: String,
+    /// The uncertain numbers of inertia, each with its range.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    uncertainty: Vec<RangeView<'a>>,
+    /// What law `adaptive` learns.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    adaptation: Option<AdaptationView<'a>>,
     control: Option<ControlView<'a>>,
     #[serde(flatten)]
     guarantee: Option<GuaranteeView<'a>>,
@@ -88,6 +94,24 @@ struct DomainView {
 struct Costs {
     reduced: Operations,
     exact: Operations,
+}
+
+#[derive(Serialize)]
+struct RangeView<'a> {
+    name: &'a str,
+    nominal: f64,
+    low: f64,
+    high: f64,
+}
+
+#[derive(Serialize)]
+struct AdaptationView<'a> {
+    /// Parameters θ with their boxes; uncertain numbers count from the arm's own.
+    parameters: Vec<RangeView<'a>>,
+    /// Diagonal of Pθθ⁻¹.
+    rate: &'a [f64],
+    /// Of base and Y together.
+    operations: Operations,
 }
 
 #[derive(Serialize)]
@@ -152,7 +176,15 @@ fn view(generation: &Generation) -> Inspection<'_> {
             inertia_certified: promised.inertia.certified,
         }
     });
+    let uncertainty = generation.uncertainty.parameters.iter().map(|p| RangeView {
+        name: &p.name,
+        nominal: p.nominal,
+        low: p.nominal + p.low,
+        high: p.nominal + p.high,
+    });
     Inspection {
+        uncertainty: uncertainty.collect(),
+        adaptation: adaptation(generation),
         name: &generation.loaded.spec.name,
         joints: arm.dof(),
         joint_names: arm.joints.iter().map(|joint| joint.name.as_str()).collect(),
@@ -186,6 +218,26 @@ fn view(generation: &Generation) -> Inspection<'_> {
         guarantee,
         warnings: &generation.warnings,
     }
+}
+
+fn adaptation(generation: &Generation) -> Option<AdaptationView<'_>> {
+    let adaptation = generation.design.as_ref()?.adaptation.as_ref()?;
+    let regressor = generation.regressor.as_ref()?;
+    let mut operations = regressor.code.operations();
+    if regressor.own_base {
+        let own = generation.code.operations();
+        operations.mul += own.mul;
+        operations.add += own.add;
+        operations.trig_pairs = operations.trig_pairs.max(own.trig_pairs);
+    }
+    let parameter = |k: usize| RangeView {
+        name: &adaptation.names[k],
+        nominal: adaptation.initial[k],
+        low: adaptation.low[k],
+        high: adaptation.high[k],
+    };
+    let parameters = (0..adaptation.names.len()).map(parameter).collect();
+    Some(AdaptationView { parameters, rate: &adaptation.rate, operations })
 }
 
 fn diagonal(values: &[f64]) -> Vec<Vec<f64>> {
@@ -249,6 +301,13 @@ fn text(view: &Inspection, generation: &Generation) -> String {
     if let Some(torque) = view.torque_error.as_ref().filter(|_| !view.selected.is_empty()) {
         let peak = view.peak_torque.as_ref().map_or(String::new(), |peak| format!(" of {}", list(peak)));
         lines.push(format!("torque error (certified) <= {}{peak}", list(torque)));
+    }
+    for p in &view.uncertainty {
+        lines.push(format!("uncertain: {} in [{}, {}], here {}", p.name, p.low, p.high, p.nominal));
+    }
+    if let Some(adaptation) = &view.adaptation {
+        let count = adaptation.parameters.len();
+        lines.push(format!("adapts {count} parameters: base and Y in {}", cost(&adaptation.operations)));
     }
     if let Some(control) = &view.control {
         lines.push(format!("control: k* = {:.4}, V_max(0) = {:.4} J", control.k_star, control.v_max));
