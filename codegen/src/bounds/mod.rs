@@ -101,11 +101,12 @@ pub fn certified(
         .enumerate()
         .map(|(m, residual)| {
             let Some(residual) = residual else { return Certificate::default() };
-            let region = Region::new(domain, motion, &residual.polynomial.joints);
             let size: f64 = lagrangian.coefficients[m].terms.iter().map(|(_, k)| k.abs()).sum();
-            let proof = branch::maximum(&residual, &region, effort, FLOOR * size);
+            let residuals = std::slice::from_ref(&residual);
+            let proof = branch::maximum(residuals, domain, motion, effort, FLOOR * size);
             let rounding = rounding::published(lagrangian, m, &reduced.combinations[m], &reach);
             let bound = (proof.upper + rounding).next_up();
+            let region = Region::new(domain, motion, &residuals[proof.residual].polynomial.joints);
             let (time, witness) = region.position(lagrangian.dof, &proof.found.x);
             Certificate { bound, found: proof.found.height, witness, time, boxes: proof.boxes }
         })

@@ -1,5 +1,7 @@
 //! Enclosures against dense points.
 
+use super::Effort;
+use super::branch::maximum;
 use super::polynomial::{Polynomial, Scratch};
 use super::region::{Cell, Region};
 use super::residual::Residual;
@@ -124,4 +126,40 @@ fn the_excess_over_the_quadratic_falls_with_the_third_power() {
     };
     let (wide, narrow) = (excess(0.04), excess(0.01));
     assert!(narrow > 0.0 && (50.0..80.0).contains(&(wide / narrow)), "{wide} {narrow}");
+}
+
+#[test]
+fn a_joint_maximum_is_the_largest_of_the_separate_ones_for_fewer_boxes() {
+    let motion = motion();
+    let domain = Domain::Tube(vec![0.2; 4]);
+    let reach = super::reach(&domain, Some(&motion));
+    // What uncertain parameters do to a residual: each vertex of their box changes a few of its coefficients, and at
+    // some a joint drops out.
+    let vertex = |bits: usize| {
+        let mut terms = terms();
+        for (l, (_, k)) in terms.iter_mut().enumerate() {
+            *k *= if bits >> (l % 3) & 1 == 1 { 1.0 + 0.1 * l as f64 } else { 1.0 };
+        }
+        if bits == 4 {
+            terms.retain(|(psi, _)| psi.power[2] == 0);
+        }
+        let polynomial = Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k)));
+        Residual::new(polynomial, &domain, Some(&motion), &reach)
+    };
+    let residuals: Vec<Residual> = (0..8).map(vertex).collect();
+    let effort = Effort { boxes: 20_000, ..Effort::default() };
+    let joint = maximum(&residuals, &domain, Some(&motion), &effort, 0.0);
+    let separate: Vec<_> = residuals
+        .iter()
+        .map(|residual| maximum(std::slice::from_ref(residual), &domain, Some(&motion), &effort, 0.0))
+        .collect();
+    let found = separate.iter().map(|proof| proof.found.height).fold(0.0, f64::max);
+    let upper = separate.iter().map(|proof| proof.upper).fold(0.0, f64::max);
+    assert!((joint.found.height - found).abs() <= 1e-3 * found, "{} {found}", joint.found.height);
+    assert!(joint.upper >= found && upper >= joint.found.height);
+    assert!(joint.upper <= (1.0 + effort.tolerance) * joint.found.height);
+    assert!((joint.found.height - separate[joint.residual].found.height).abs() <= 1e-3 * found);
+    let boxes: usize = separate.iter().map(|proof| proof.boxes).sum();
+    assert!(joint.boxes < boxes / 2, "{} of {boxes}", joint.boxes);
+    assert_eq!(maximum(&[], &domain, Some(&motion), &effort, 0.0), super::branch::Proof::default());
 }
