@@ -2,12 +2,14 @@
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
+use std::rc::Rc;
 
-use super::Effort;
 use super::ascent::{Summit, climb, search};
+use super::expansion::{Expander, Expansion};
 use super::polynomial::Scratch;
 use super::region::{Cell, Region};
-use super::residual::Residual;
+use super::residual::{Residual, narrow};
+use super::{Effort, LONG};
 use crate::measure::Domain;
 use crate::motion::Motion;
 
@@ -16,6 +18,12 @@ const BUDGETS: usize = 8;
 
 /// Residuals beyond which each is searched from fewer starts.
 const SEARCHES: usize = 16;
+
+/// Terms of a residual beyond which its cells are enclosed by expansions.
+const EXPANDED: usize = 50;
+
+/// What the remainder of an expansion may take of the gap that is near enough.
+const REMAINDER: f64 = 0.15;
 
 /// What branch and bound proves.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,7 +39,7 @@ pub struct Proof {
 }
 
 /// A cell waiting to be halved, for the maximum of `sign`·f of one residual.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Waiting {
     pub upper: f64,
     /// Order of arrival, which settles ties.
@@ -40,11 +48,12 @@ pub(super) struct Waiting {
     pub sign: f64,
     pub split: usize,
     pub cell: Cell,
+    pub expansion: Option<Rc<Expansion>>,
 }
 
 /// Bounds the largest |f| of all `residuals` over `domain` together. Where it stays below `floor`, half as much again
-/// is near enough. Whatever stays below a value found of any residual is left alone, and all draw on one budget, that
-/// of the longest residual for each of the first eight. Without residuals all is zero.
+/// is near enough. Whatever stays below a value found of any residual is left alone, and all draw on one budget, which
+/// grows with the first eight of them. Without residuals all is zero.
 pub fn maximum(
     residuals: &[Residual],
     domain: &Domain,
@@ -52,26 +61,37 @@ pub fn maximum(
     effort: &Effort,
     floor: f64,
 ) -> Proof {
-    let regions: Vec<Region> =
-        residuals.iter().map(|residual| Region::new(domain, motion, &residual.polynomial.joints)).collect();
-    let longest = residuals.iter().map(|residual| residual.polynomial.terms().count()).max().unwrap_or(0);
-    let budget = effort.budget(longest) * residuals.len().min(BUDGETS);
-    let mut front = Front::new(residuals, &regions, effort, floor);
+    let subject = |residual| Subject::new(residual, domain, motion);
+    let mut front = Front {
+        subjects: residuals.iter().map(subject).collect(),
+        tolerance: effort.tolerance,
+        floor,
+        heap: BinaryHeap::new(),
+        proof: Proof { found: Summit { height: -1.0, x: Vec::new() }, ..Proof::default() },
+        spent: 0,
+        scratch: Scratch::default(),
+    };
+    let starts = match residuals.len() {
+        0..=SEARCHES => effort.starts,
+        more => (effort.starts * SEARCHES / more).max(effort.starts.min(2)),
+    };
+    front.search(starts);
     for residual in 0..residuals.len() {
         for sign in [1.0, -1.0] {
-            front.enter(residual, regions[residual].root, sign, f64::INFINITY);
+            front.enter(residual, front.subjects[residual].region.root, sign, f64::INFINITY, None);
         }
     }
+    let budget = effort.boxes * residuals.len().min(BUDGETS);
     let mut open = 0.0;
     while let Some(top) = front.heap.pop() {
         // Where a cell has become a point, only rounding stands between the two bounds.
-        let done = top.upper <= front.near() || front.proof.boxes >= budget;
+        let done = top.upper <= front.near() || front.spent >= budget;
         if done || !divisible(&top.cell, top.split) {
             open = top.upper;
             break;
         }
         for cell in halves(&top.cell, top.split) {
-            front.enter(top.residual, cell, top.sign, top.upper);
+            front.enter(top.residual, cell, top.sign, top.upper, top.expansion.clone());
         }
     }
     let mut proof = front.proof;
@@ -80,38 +100,46 @@ pub fn maximum(
     proof
 }
 
+/// One of the residuals.
+struct Subject<'a> {
+    residual: &'a Residual,
+    region: Region<'a>,
+    /// Where the residual is long enough.
+    expander: Option<Expander<'a>>,
+    /// What enclosing a box without an expansion costs, in boxes.
+    cost: usize,
+}
+
+impl<'a> Subject<'a> {
+    fn new(residual: &'a Residual, domain: &Domain, motion: Option<&'a Motion>) -> Self {
+        let terms = residual.polynomial.terms().count();
+        let region = Region::new(domain, motion, &residual.polynomial.joints);
+        let expander = (terms > EXPANDED).then(|| Expander::new(residual));
+        let cost = if terms > LONG { 2 * terms.div_ceil(LONG) } else { 1 };
+        Self { residual, region, expander, cost }
+    }
+}
+
 /// What is known so far: `proof.upper` covers the cells that were left alone, the heap holds the others.
 struct Front<'a> {
-    residuals: &'a [Residual],
-    regions: &'a [Region<'a>],
+    subjects: Vec<Subject<'a>>,
     tolerance: f64,
     floor: f64,
     heap: BinaryHeap<Waiting>,
     proof: Proof,
+    /// Boxes, as much as they cost.
+    spent: usize,
     scratch: Scratch,
 }
 
-impl<'a> Front<'a> {
+impl Front<'_> {
     /// Searches every residual from below.
-    fn new(residuals: &'a [Residual], regions: &'a [Region<'a>], effort: &Effort, floor: f64) -> Self {
-        let starts = match residuals.len() {
-            0..=SEARCHES => effort.starts,
-            more => (effort.starts * SEARCHES / more).max(effort.starts.min(2)),
-        };
-        let mut out = Self {
-            residuals,
-            regions,
-            tolerance: effort.tolerance,
-            floor,
-            heap: BinaryHeap::new(),
-            proof: Proof { found: Summit { height: -1.0, x: Vec::new() }, ..Proof::default() },
-            scratch: Scratch::default(),
-        };
-        for residual in 0..residuals.len() {
-            let summit = search(&residuals[residual], &regions[residual], starts, &mut out.scratch);
-            out.offer(residual, summit);
+    fn search(&mut self, starts: usize) {
+        for residual in 0..self.subjects.len() {
+            let Subject { residual: f, region, .. } = &self.subjects[residual];
+            let summit = search(f, region, starts, &mut self.scratch);
+            self.offer(residual, summit);
         }
-        out
     }
 
     /// Keeps the higher of two summits, the earlier one where they tie.
@@ -128,13 +156,31 @@ impl<'a> Front<'a> {
         if found <= self.floor { fine.max(1.5 * found.max(f64::MIN_POSITIVE)) } else { fine }
     }
 
-    /// Encloses a cell whose parent stays below `parent`; it waits unless its bound is near enough.
-    fn enter(&mut self, residual: usize, cell: Cell, sign: f64, parent: f64) {
+    /// Encloses a cell whose parent stays below `parent`, by the expansion that was good for the parent or else by
+    /// one of its own or else directly; it waits unless its bound is near enough.
+    fn enter(
+        &mut self,
+        residual: usize,
+        cell: Cell,
+        sign: f64,
+        parent: f64,
+        mut expansion: Option<Rc<Expansion>>,
+    ) {
         self.proof.boxes += 1;
-        let (f, region) = (&self.residuals[residual], &self.regions[residual]);
-        let narrowed = f.narrow(region, cell, sign, &mut self.scratch);
+        let room = REMAINDER * (self.near() - self.proof.found.height);
+        let Subject { residual: f, region, expander, cost } = &mut self.subjects[residual];
+        if let (Some(expander), None) = (expander.as_mut(), &expansion) {
+            expansion = expander.expand(&region.frame(&cell), room).map(Rc::new);
+        }
+        let narrowed = if let (Some(expander), Some(expansion)) = (expander, &expansion) {
+            self.spent += 1;
+            narrow(region, cell, |frame| expander.enclose(expansion, frame, sign))
+        } else {
+            self.spent += *cost;
+            narrow(region, cell, |frame| f.enclose(frame, &f.jet(frame, &mut self.scratch), sign))
+        };
         let Some((cell, enclosure)) = narrowed else { return };
-        if sign * enclosure.centre > self.proof.found.height {
+        if enclosure.least > self.proof.found.height {
             let centre: Vec<f64> = middle(&cell, region.variables());
             let summit = climb(f, region, &centre, &mut self.scratch);
             self.offer(residual, summit);
@@ -144,7 +190,15 @@ impl<'a> Front<'a> {
             self.proof.upper = self.proof.upper.max(upper);
         } else {
             let number = self.proof.boxes;
-            self.heap.push(Waiting { upper, number, residual, sign, split: enclosure.split, cell });
+            self.heap.push(Waiting {
+                upper,
+                number,
+                residual,
+                sign,
+                split: enclosure.split,
+                cell,
+                expansion,
+            });
         }
     }
 }

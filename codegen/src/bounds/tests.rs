@@ -1,7 +1,8 @@
 //! Enclosures against dense points.
 
 use super::Effort;
-use super::branch::maximum;
+use super::branch::{halves, maximum};
+use super::expansion::Expander;
 use super::polynomial::{Polynomial, Scratch};
 use super::region::{Cell, Region};
 use super::residual::Residual;
@@ -69,6 +70,7 @@ fn no_point_of_a_cell_exceeds_its_enclosure() {
         let residual = Residual::new(polynomial, &domain, motion, &reach);
         let region = Region::new(&domain, motion, &residual.polynomial.joints);
         let (count, mut scratch) = (region.variables(), Scratch::default());
+        let mut expander = Expander::new(&residual);
         let (cells, inside) = (Spread::new(2 * count), Spread::new(count));
         for index in 0..300 {
             let unit = cells.point(index);
@@ -81,8 +83,19 @@ fn no_point_of_a_cell_exceeds_its_enclosure() {
             }
             let frame = region.frame(&cell);
             let jet = residual.jet(&frame, &mut scratch);
-            let [up, down] = [1.0, -1.0].map(|sign| residual.enclose(&frame, &jet, sign));
-            for point in 0..200 {
+            let direct = [1.0, -1.0].map(|sign| residual.enclose(&frame, &jet, sign));
+            // An expansion holds for its own cell and for any in it.
+            let expansion = expander.expand(&frame, f64::INFINITY).unwrap();
+            let expanded = [1.0, -1.0].map(|sign| expander.enclose(&expansion, &frame, sign));
+            let [_, corner] = halves(&cell, index % count);
+            let [corner, _] = halves(&corner, (index / 3) % count);
+            let part = region.frame(&corner);
+            let nested = [1.0, -1.0].map(|sign| expander.enclose(&expansion, &part, sign));
+            for (cell, [up, down], point) in (0..300).map(|point| match point % 3 {
+                0 => (cell, direct, point),
+                1 => (cell, expanded, point),
+                _ => (corner, nested, point),
+            }) {
                 let u = inside.point(point);
                 let x: Vec<f64> =
                     (0..count).map(|i| cell.low[i] + u[i] * (cell.high[i] - cell.low[i])).collect();
@@ -162,4 +175,40 @@ fn a_joint_maximum_is_the_largest_of_the_separate_ones_for_fewer_boxes() {
     let boxes: usize = separate.iter().map(|proof| proof.boxes).sum();
     assert!(joint.boxes < boxes / 2, "{} of {boxes}", joint.boxes);
     assert_eq!(maximum(&[], &domain, Some(&motion), &effort, 0.0), super::branch::Proof::default());
+}
+
+#[test]
+fn an_expansion_is_near_the_residual_and_its_bounds_nearer_than_the_residual_s() {
+    let terms = terms();
+    let domain = Domain::Workspace(vec![[-1.0, 1.0]; 4]);
+    let polynomial = Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k)));
+    let residual = Residual::new(polynomial, &domain, None, &[1.0; 4]);
+    let region = Region::new(&domain, None, &residual.polynomial.joints);
+    let (mut expander, mut scratch) = (Expander::new(&residual), Scratch::default());
+    let mut cell = Region::point(&[0.3, -0.4, 0.5, 0.2]);
+    for i in 0..4 {
+        (cell.low[i], cell.high[i]) = (cell.low[i] - 0.03, cell.high[i] + 0.03);
+    }
+    let frame = region.frame(&cell);
+    assert!(expander.expand(&frame, 1e-9).is_none());
+    // With a hair of room all orders are kept, with more the upper ones are not worth their work.
+    for (limit, orders) in [(1e-5, 5), (1e-1, 3)] {
+        let expansion = expander.expand(&frame, limit).unwrap();
+        assert_eq!(expansion.order(), orders);
+        for x in [[0.3, -0.4, 0.5, 0.2], [0.32, -0.42, 0.48, 0.21]] {
+            let frame = region.frame(&Region::point(&x));
+            let jet = residual.jet(&frame, &mut scratch);
+            for sign in [1.0, -1.0] {
+                let at = expander.enclose(&expansion, &frame, sign);
+                assert!(at.least <= sign * jet.value && sign * jet.value <= at.upper);
+                assert!(at.upper - at.least <= 2.1 * limit);
+            }
+        }
+        let jet = residual.jet(&frame, &mut scratch);
+        if limit < 1e-4 {
+            let (direct, expanded) =
+                (residual.enclose(&frame, &jet, 1.0), expander.enclose(&expansion, &frame, 1.0));
+            assert!(expanded.upper < direct.upper, "{} {}", expanded.upper, direct.upper);
+        }
+    }
 }
