@@ -12,8 +12,6 @@ pub const ORDER: usize = 5;
 pub struct Monomials {
     /// Number of displacements.
     pub joints: usize,
-    /// Largest degree.
-    pub order: usize,
     /// The exponents of each monomial.
     pub exponents: Vec<[i8; MAX_JOINTS]>,
     /// The monomials of each joint are summed in groups that agree in the exponents of all joints before it: the
@@ -41,7 +39,7 @@ impl Monomials {
             groups.push(group);
             exponents = next;
         }
-        Self { joints, order, exponents, groups }
+        Self { joints, exponents, groups }
     }
 }
 
