@@ -1,6 +1,8 @@
 //! A residual expanded about a point: cells near it are enclosed by a polynomial of a few hundred terms, whose
 //! derivatives are bounded after what cancels between the residual's own terms.
 
+use std::rc::Rc;
+
 use super::envelope::{Enclosure, Envelope};
 use super::polynomial::{Complex, Polynomial, times};
 use super::region::Frame;
@@ -9,6 +11,9 @@ use super::rounding::ENCLOSURE;
 use super::taylor::{Buffers, Monomials, ORDER, degree, jet};
 use super::tensors::Tensors;
 use crate::lagrangian::MAX_JOINTS;
+
+/// Expansions of one residual at a time; each takes up to 20 kB.
+const MOST: usize = 4096;
 
 /// Least order of an expansion: below it the bound on the third derivatives would be empty.
 const LEAST: usize = 3;
@@ -28,6 +33,8 @@ pub struct Expander<'a> {
     steps: Vec<Vec<(usize, usize)>>,
     /// By order.
     monomials: Vec<Monomials>,
+    /// Shared by all expansions in use.
+    alive: Rc<()>,
     buffers: Buffers,
     below: Vec<Complex>,
     above: Vec<Complex>,
@@ -38,16 +45,12 @@ pub struct Expander<'a> {
 #[derive(Clone, Debug)]
 pub struct Expansion {
     origin: [f64; MAX_JOINTS],
-    order: usize,
+    /// Degree of the polynomial.
+    pub order: usize,
     coefficients: Vec<f64>,
     envelope: Envelope,
-}
-
-impl Expansion {
-    /// Degree of the polynomial.
-    pub fn order(&self) -> usize {
-        self.order
-    }
+    /// Counts those in use.
+    _alive: Rc<()>,
 }
 
 impl<'a> Expander<'a> {
@@ -87,6 +90,7 @@ impl<'a> Expander<'a> {
             terms,
             steps,
             monomials: (0..=ORDER).map(|order| Monomials::new(k, order)).collect(),
+            alive: Rc::new(()),
             buffers: Buffers::default(),
             below: Vec::new(),
             above: Vec::new(),
@@ -95,8 +99,11 @@ impl<'a> Expander<'a> {
     }
 
     /// Expands about the centre of `frame`, for all positions of the frame. `None` where that would leave a remainder
-    /// above `limit`.
+    /// above `limit`, or where too many expansions are in use.
     pub fn expand(&mut self, frame: &Frame, limit: f64) -> Option<Expansion> {
+        if Rc::strong_count(&self.alive) > MOST {
+            return None;
+        }
         let k = self.residual.polynomial.joints.len();
         // Rounded centres of cells stay inside.
         let total: Vec<f64> = frame.total[..k].iter().map(|t| t * (1.0 + 1e-9) + 1e-12).collect();
@@ -132,7 +139,8 @@ impl<'a> Expander<'a> {
         let more = 1.0 + 1e-9;
         slack.iter_mut().for_each(|slack| *slack *= more);
         let envelope = Envelope::new(tensors, &widest, &self.residual.reach, remainder * more, slack);
-        Some(Expansion { origin: frame.centre, order, coefficients, envelope })
+        let alive = Rc::clone(&self.alive);
+        Some(Expansion { origin: frame.centre, order, coefficients, envelope, _alive: alive })
     }
 
     /// Encloses σf over a frame for which `expansion` is good.

@@ -194,7 +194,7 @@ fn an_expansion_is_near_the_residual_and_its_bounds_nearer_than_the_residual_s()
     // With a hair of room all orders are kept, with more the upper ones are not worth their work.
     for (limit, orders) in [(1e-6, 5), (1e-1, 3)] {
         let expansion = expander.expand(&frame, limit).unwrap();
-        assert_eq!(expansion.order(), orders);
+        assert_eq!(expansion.order, orders);
         for x in [[0.3, -0.4, 0.5, 0.2], [0.32, -0.42, 0.48, 0.21]] {
             let frame = region.frame(&Region::point(&x));
             let jet = residual.jet(&frame, &mut scratch);
