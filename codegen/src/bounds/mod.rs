@@ -2,16 +2,19 @@
 //!
 //! Every residual α_m − α̂_m is a polynomial in sines, cosines and prismatic coordinates with known coefficients.
 //! Branch and bound over boxes of position errors and time encloses it to second order with a bound on its third
-//! derivatives, until the bound is close above the largest value that a search finds. What is published holds at
-//! every point of the domain, rounding included.
+//! derivatives, until the bound is close above the largest value that a search finds; long residuals are first
+//! expanded about a few points. What is published holds at every point of the domain, rounding included.
 
 mod ascent;
 mod branch;
+mod envelope;
 mod estimate;
+mod expansion;
 mod polynomial;
 mod region;
 mod residual;
 mod rounding;
+mod taylor;
 mod tensors;
 #[cfg(test)]
 mod tests;
@@ -33,7 +36,7 @@ use residual::Residual;
 /// A residual below this fraction of its coefficient's Σ|k_l| need not be bounded more sharply than by half.
 const FLOOR: f64 = 1e-6;
 
-/// Terms of a residual beyond which its boxes grow fewer.
+/// Terms of a residual beyond which enclosing a box term by term counts for more than one box.
 pub const LONG: usize = 1000;
 
 /// How much work a certificate may take.
@@ -41,8 +44,8 @@ pub const LONG: usize = 1000;
 pub struct Effort {
     /// Where bound and largest value found differ by less than this fraction, branch and bound stops.
     pub tolerance: f64,
-    /// Boxes for each residual of up to [`LONG`] terms, for longer ones accordingly fewer; when they are spent, the
-    /// bound found so far stands. A box that waits takes 200 bytes.
+    /// Boxes for each residual; of those that are enclosed term by term, a residual of more than [`LONG`] terms gets
+    /// accordingly fewer. When they are spent, the bound found so far stands. A box that waits takes 200 bytes.
     pub boxes: usize,
     /// Starts of the search from below.
     pub starts: usize,
@@ -55,13 +58,6 @@ impl Default for Effort {
     /// What generation spends.
     fn default() -> Self {
         Self { tolerance: 0.01, boxes: 100_000, starts: 12, seek_tube: false }
-    }
-}
-
-impl Effort {
-    /// Boxes for a residual of `terms` terms.
-    fn budget(&self, terms: usize) -> usize {
-        if terms > LONG { self.boxes / (2 * terms.div_ceil(LONG)) } else { self.boxes }
     }
 }
 
@@ -103,28 +99,19 @@ pub fn certified(
         .into_par_iter()
         .enumerate()
         .map(|(m, residuals)| {
+            if residuals.is_empty() {
+                return Certificate::default();
+            }
             let coefficient = &lagrangian.coefficients[m];
             let terms = coefficient.terms.iter().chain(coefficient.variations.iter().flatten());
             let size: f64 = terms.map(|(_, k)| k.abs()).sum();
-            let prove = |residual: &Residual| {
-                let region = Region::new(domain, motion, &residual.polynomial.joints);
-                let proof = branch::maximum(residual, &region, effort, FLOOR * size);
-                let (time, witness) = region.position(lagrangian.dof, &proof.found.x);
-                (proof, time, witness)
-            };
-            let proofs: Vec<_> = residuals.iter().map(prove).collect();
-            let Some(upper) = proofs.iter().map(|(proof, ..)| proof.upper).reduce(f64::max) else {
-                return Certificate::default();
-            };
-            let boxes = proofs.iter().map(|(proof, ..)| proof.boxes).sum();
+            let proof = branch::maximum(&residuals, domain, motion, effort, FLOOR * size);
             let rounding = rounding::published(lagrangian, m, reduced, &reach);
-            let bound = (upper + rounding).next_up();
-            let best = proofs.into_iter().enumerate().reduce(|best, other| {
-                if other.1.0.found.height > best.1.0.found.height { other } else { best }
-            });
-            let Some((index, (proof, time, witness))) = best else { return Certificate::default() };
-            let parameters = vertex(&active(lagrangian, reduced, m), lagrangian, index);
-            Certificate { bound, found: proof.found.height, witness, time, parameters, boxes }
+            let bound = (proof.upper + rounding).next_up();
+            let region = Region::new(domain, motion, &residuals[proof.residual].polynomial.joints);
+            let (time, witness) = region.position(lagrangian.dof, &proof.found.x);
+            let parameters = vertex(&active(lagrangian, reduced, m), lagrangian, proof.residual);
+            Certificate { bound, found: proof.found.height, witness, time, parameters, boxes: proof.boxes }
         })
         .collect()
 }

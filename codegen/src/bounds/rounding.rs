@@ -5,7 +5,13 @@
 //! - U, the largest upper bound of any cell, already holds the rounding of its own evaluation: a jet passes each
 //!   term through at most 8 levels of a factor (≤ 4 roundings), a complex product (≤ 4) and a sum (≤ 5 children, at
 //!   most 5 roundings), 104 in all, the enclosure sums at most 600 products of jet, tensor and widths after that.
-//!   [`ENCLOSURE`] = γ_1024 of Σ|c| sup|ψ| and of its derivatives times the widths of the whole domain;
+//!   [`ENCLOSURE`] = γ_1024 of Σ|c| sup|ψ| and of its derivatives times the widths of the whole domain.
+//!   A coefficient of order a of an expansion passes each term through at most 8 levels of a factor (≤ 8 roundings),
+//!   the quotient of its derivative (≤ 10), a complex product (≤ 3), a product (1) and a sum (≤ 5), 216 in all, so it
+//!   errs by ENCLOSURE Σ|c| rate^a/a!; with displacements up to δ that makes ENCLOSURE Σ|c| e^{rate δ} in the value,
+//!   which is added to the remainder, and accordingly in the slopes. What is enclosed from there on is the polynomial
+//!   with the coefficients as computed: its jet takes at most 7 levels of a power (≤ 5 roundings) and a Horner step or
+//!   a sum (≤ 12), 119 in all, under the same [`ENCLOSURE`] of its own Σ|c| |δ|^a;
 //! - E, evaluating α̂_m in generated f64 code: a sine or cosine of a joint errs by 1 ulp, building κ·q from them
 //!   takes at most 4 roundings a joint and power, the sum one a term: γ_{64+ξ} Σ|k̂_l| sup|ψ_l|;
 //! - C, the exact α_m as computed from the arm: the recursion behind each sample (≤ 512 roundings), the transform

@@ -130,7 +130,18 @@ fn largest_sum(parts: &[Part], region: &Region) -> f64 {
     let mut scratch = Scratch::default();
     let mut enter = |cell: Cell, number: usize, parent: f64| {
         let (centre, upper, split) = enclose(parts, region, &cell, &mut scratch);
-        (centre, Waiting { upper: upper.min(parent), number, sign: 1.0, split, cell })
+        (
+            centre,
+            Waiting {
+                upper: upper.min(parent),
+                number,
+                residual: 0,
+                sign: 1.0,
+                split,
+                cell,
+                expansion: None,
+            },
+        )
     };
     let mut heap = BinaryHeap::new();
     let (mut found, root) = enter(region.root, 0, f64::INFINITY);
