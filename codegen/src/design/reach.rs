@@ -10,9 +10,9 @@ use crate::error::Error;
 use crate::spec::{CoriolisTermSpec, LawSpec};
 
 /// Relative gap at which the search for extremes of D ends.
-const TOLERANCE: f64 = 0.05;
+pub(super) const TOLERANCE: f64 = 0.05;
 /// Vertices at which a search over a domain may look, for an arm of one joint; the cost of each grows with n².
-const BUDGET: usize = 200_000;
+pub(super) const BUDGET: usize = 200_000;
 /// The same for the positions about the start.
 const START_BUDGET: usize = 2_000;
 /// Rounds in which the level of V must settle.
