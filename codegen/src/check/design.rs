@@ -49,7 +49,10 @@ pub(super) fn check(control: &ControlSpec, spec: &Spec, joints: Option<usize>, f
     let Some((wanted, widest)) = joints.and_then(|n| Some((vector(tube, n)?, vector(widest, n)?))) else {
         return;
     };
-    for (i, (wanted, widest)) in wanted.iter().zip(&widest).enumerate().filter(|(_, (w, m))| w > m) {
+    let beyond = wanted.iter().zip(&widest).enumerate().filter(|(_, (wanted, widest))| wanted > widest);
+    // One number for all joints is one mistake.
+    let told = if matches!(tube, VectorSpec::Scalar(_)) { 1 } else { wanted.len() };
+    for (i, (wanted, widest)) in beyond.take(told) {
         let field = match tube {
             VectorSpec::Scalar(_) => "control.design.tube".to_string(),
             VectorSpec::List(_) => format!("control.design.tube[{i}]"),

@@ -62,7 +62,7 @@ pub(super) struct Parts<'a> {
     /// Initial position and velocity error.
     pub(super) initial: [Vec<f64>; 2],
     pub(super) delta_c1: Option<&'a [Vec<f64>]>,
-    /// Pass over the largest initial error and the smallest tube, which a comparison of gains does not need.
+    /// Pass over final error, largest initial error and smallest tube, which a comparison of gains does not need.
     pub(super) sketch: bool,
 }
 
@@ -117,8 +117,12 @@ impl Parts<'_> {
             self.delta_c1.map(<[_]>::to_vec).unwrap_or_else(|| family::multiple_of_identity(k_star, n));
 
         let gain = course.gain(&envelope.position_error, &envelope.velocity_error, &delta_c);
-        let period_max = self.longest_period(&inertia, over, &delta_c1, &gain);
-        let final_error = course.final_error(&envelope, &delta_c)?;
+        let period_max = self.longest_period(&inertia, over.clone(), &delta_c1, &gain);
+        let final_error = if self.sketch {
+            envelope.position_error.clone()
+        } else {
+            course.final_error(&inertia, over, &envelope, &delta_c)?
+        };
 
         if !facts.certified {
             reasons.push("the bounds on D over the domain could not be certified".to_string());

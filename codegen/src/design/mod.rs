@@ -7,6 +7,7 @@ mod inertia;
 mod linalg;
 mod reach;
 mod region;
+mod rest;
 mod search;
 #[cfg(test)]
 mod tests;
@@ -163,7 +164,8 @@ impl<'a> Stage<'a> {
         })
     }
 
-    /// The gain matrices of `tuning` and what they promise; a `sketch` passes over the largest initial error.
+    /// The gain matrices of `tuning` and what they promise; a `sketch` passes over what a comparison of gains
+    /// does not need.
     fn judge(&self, tuning: &Tuning, sketch: bool) -> Result<(Gains, guarantee::Judgement), Error> {
         let gains = Gains::new(tuning);
         let form = if gains.is_finite() { reach::Form::new(&gains) } else { None };

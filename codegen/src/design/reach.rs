@@ -174,12 +174,7 @@ impl Course<'_> {
         match (self.law, self.layer) {
             (LawSpec::Exact, _) => h.iter_mut().zip(gain).for_each(|(h, rho)| *h += rho),
             (_, Some(phi)) => c = 0.25 * weighed(gain, phi),
-            (_, None) if chatter => {
-                // A held sign is wrong for at most a period, in which it moves s_j by T Σ|D⁻¹|_jk 2ρ_k.
-                let mobility = &self.inertia.mobility;
-                let sum: f64 = gain.iter().zip(mobility).map(|(rho, m)| rho * libm::sqrt(*m)).sum();
-                c = 4.0 * self.period * sum * sum;
-            }
+            (_, None) if chatter => c = self.chatter(gain),
             (_, None) => {}
         }
         let row =
@@ -187,6 +182,14 @@ impl Course<'_> {
         let eta = libm::sqrt(h.iter().enumerate().map(|(i, h)| h * row(i)).sum::<f64>());
         let x = 0.5 * (eta + libm::sqrt(eta * eta + 4.0 * c));
         0.5 * self.inertia.time * x * x
+    }
+
+    /// The power that a held sign function may put into V, W: it is wrong for at most a period, in which it moves s_j
+    /// by T Σ|D⁻¹|_jk 2ρ_k.
+    pub(super) fn chatter(&self, gain: &[f64]) -> f64 {
+        let mobility = &self.inertia.mobility;
+        let sum: f64 = gain.iter().zip(mobility).map(|(rho, m)| rho * libm::sqrt(*m)).sum();
+        4.0 * self.period * sum * sum
     }
 
     /// The level that V never leaves and what follows, with ΔC of that level; `None` where no level holds it.
@@ -209,8 +212,13 @@ impl Course<'_> {
         Ok(None)
     }
 
-    /// |q_e| in the end, equation (17) with a layer: the errors of the last level of V, started from `envelope`.
-    pub(super) fn final_error(&self, envelope: &Envelope, delta_c: &[Vec<f64>]) -> Result<Vec<f64>, Error> {
+    /// |q_e| and |q̇_e| in the end, equation (17) with a layer: the errors of the last level of V, started from
+    /// `envelope`.
+    pub(super) fn final_errors(
+        &self,
+        envelope: &Envelope,
+        delta_c: &[Vec<f64>],
+    ) -> Result<(Vec<f64>, Vec<f64>), Error> {
         let rest = vec![0.0; self.speed.len()];
         let mut v = envelope.level;
         for _ in 0..ROUNDS {
@@ -221,8 +229,9 @@ impl Course<'_> {
             }
             v = next;
         }
-        let (position, _) = self.errors(v, &rest)?;
-        Ok(position.iter().zip(&envelope.position_error).map(|(a, b)| a.min(*b)).collect())
+        let (position, velocity) = self.errors(v, &rest)?;
+        let least = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a.min(*b)).collect();
+        Ok((least(&position, &envelope.position_error), least(&velocity, &envelope.velocity_error)))
     }
 }
 
@@ -278,6 +287,6 @@ fn largest_form(m: &DMatrix<f64>, b: &[f64]) -> f64 {
 }
 
 /// Σ |a_i| b_i.
-fn weighed(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn weighed(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a.abs() * b).sum()
 }

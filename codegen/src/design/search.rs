@@ -22,7 +22,7 @@ const ROUNDS: usize = 4;
 /// Ratio from one P12 that is tried to the next, and their number.
 const STEP: f64 = 1.05;
 const STEPS: i32 = 50;
-/// Halvings of the interval of exponents in which the smallest κ lies, and its lower end.
+/// Halvings of the interval of exponents in which the smallest gain lies, and its lower end.
 const HALVINGS: u32 = 6;
 const SOFTEST: f64 = 1.0 / 256.0;
 
@@ -43,10 +43,12 @@ pub(super) struct Mix {
     stiff: f64,
     /// From 0, the same ½ q_eᵀPqq q_e at the ends of the room for all joints, to 1, Pqq in proportion to K.
     graded: f64,
+    /// Largest K_ii/d_ii, 1/s: heavy joints need not take all that they bear.
+    cap: f64,
 }
 
 /// The mix from which the search starts, and the values that it tries.
-const START: Mix = Mix { linear: 0.5, stiff: 0.25, graded: 0.5 };
+const START: Mix = Mix { linear: 0.5, stiff: 0.25, graded: 0.5, cap: f64::INFINITY };
 const LINEAR: [f64; 4] = [0.35, 0.5, 0.65, 0.8];
 const STIFF: [f64; 4] = [0.12, 0.25, 0.4, 0.55];
 const GRADED: [f64; 3] = [0.0, 0.5, 1.0];
@@ -101,15 +103,18 @@ impl<'a> Scene<'a> {
         if !firmest.holds {
             return Ok(Some(firmest));
         }
-        // In the middle between the softest gains that hold and the firmest that the period bears.
-        let (mut low, mut high) = (SOFTEST, 1.0);
-        for _ in 0..HALVINGS {
-            let middle = libm::sqrt(low * high);
-            let holds = self.candidate(period, middle, mix, &firmest.judged.gain)?.is_some_and(|c| c.holds);
-            if holds { high = middle } else { low = middle }
-        }
-        let middle = self.candidate(period, libm::sqrt(high), mix, &firmest.judged.gain)?;
-        Ok(Some(middle.filter(|candidate| candidate.holds).unwrap_or(firmest)))
+        // Each in the middle between the softest gains that hold and the firmest that the period bears.
+        let rho = firmest.judged.gain.clone();
+        let holds = |gain: f64, mix: Mix| self.candidate(period, gain, mix, &rho, f64::INFINITY);
+        let gain = middle(SOFTEST, 1.0, |gain| Ok(holds(gain, mix)?.is_some_and(|c| c.holds)))?;
+        let chosen = holds(gain, mix)?.filter(|candidate| candidate.holds);
+        let (gain, chosen) = chosen.map_or((1.0, firmest), |chosen| (gain, chosen));
+        let (w, pqq, omega) = (&chosen.tuning.w, &chosen.tuning.pqq, &chosen.tuning.omega);
+        let rate = |i: usize| (w[i][i] + pqq[i][i] * pqq[i][i] / omega[i][i]) / self.heaviest[i];
+        let most = (0..w.len()).map(rate).fold(0.0, f64::max);
+        let capped = |cap: f64| holds(gain, Mix { cap, ..mix });
+        let cap = middle(SOFTEST * most, most, |cap| Ok(capped(cap)?.is_some_and(|c| c.holds)))?;
+        Ok(Some(capped(cap)?.filter(|candidate| candidate.holds).unwrap_or(chosen)))
     }
 
     /// The best mix of the most gain that the period bears.
@@ -117,7 +122,8 @@ impl<'a> Scene<'a> {
         let none = vec![0.0; self.mobility.len()];
         let mut best: Option<(Mix, Candidate)> = None;
         let consider = |mix: Mix, best: &mut Option<(Mix, Candidate)>| -> Result<(), Error> {
-            if let Some(candidate) = self.candidate(period, 1.0, mix, &none)?
+            let enough = best.as_ref().map_or(f64::INFINITY, |(_, candidate)| candidate.score);
+            if let Some(candidate) = self.candidate(period, 1.0, mix, &none, enough)?
                 && best.as_ref().is_none_or(|(_, other)| candidate.score < other.score)
             {
                 *best = Some((mix, candidate));
@@ -146,7 +152,16 @@ impl<'a> Scene<'a> {
     }
 
     /// Gains with the share `gain` of what the period bears, with a layer for the ρ that they need themselves.
-    fn candidate(&self, period: f64, gain: f64, mix: Mix, rho: &[f64]) -> Result<Option<Candidate>, Error> {
+    ///
+    /// From a `rho` below, layer and errors grow from round to round, so that errors beyond `enough` end the matter.
+    fn candidate(
+        &self,
+        period: f64,
+        gain: f64,
+        mix: Mix,
+        rho: &[f64],
+        enough: f64,
+    ) -> Result<Option<Candidate>, Error> {
         let mut rho = rho.to_vec();
         let mut last = None;
         for _ in 0..ROUNDS {
@@ -159,8 +174,10 @@ impl<'a> Scene<'a> {
             let agree = judged.gain.iter().zip(&rho).all(|(new, old)| (new - old).abs() <= 0.03 * new);
             rho.clone_from(&judged.gain);
             let (settled, finite) = (judged.settled, judged.gain.iter().all(|r| r.is_finite()));
-            last = Some(self.candidate_of(tuning, judged));
-            if agree || !settled || !finite || self.stage.problem.control.law == LawSpec::Exact {
+            let candidate = self.candidate_of(tuning, judged);
+            let beyond = candidate.reach > enough;
+            last = Some(candidate);
+            if agree || beyond || !settled || !finite || self.stage.problem.control.law == LawSpec::Exact {
                 break;
             }
         }
@@ -183,7 +200,7 @@ impl<'a> Scene<'a> {
         let slowest = 3.0 / self.target.time;
         let pull = (0..STEPS).map(|k| slowest * power(STEP, k)).find(|&pull| {
             let Some(kappa) = self.kappa(period, gain, pull) else { return false };
-            let damping = self.damping(linear * kappa);
+            let damping = self.linear(linear * kappa, mix);
             let pqq = self.stiffness(&damping, pull, mix);
             (0..damping.len()).all(|i| {
                 settling_time(damping[i] / self.heaviest[i], pull, pqq[i] / (pull * damping[i]))
@@ -191,10 +208,10 @@ impl<'a> Scene<'a> {
             })
         })?;
         let kappa = self.kappa(period, gain, pull)?;
-        let damping = self.damping(linear * kappa);
+        let damping = self.linear(linear * kappa, mix);
         let pqq = self.stiffness(&damping, pull, mix);
         let w: Vec<f64> = damping.iter().zip(&pqq).map(|(k, p)| k - p / pull).collect();
-        let slope = self.damping((1.0 - linear) * kappa);
+        let slope = self.borne((1.0 - linear) * kappa);
         let layer = |i: usize| (rho[i] / slope[i]).max(NARROW * pull * self.target.room[i]);
         Some(Tuning {
             w: diagonal(&w),
@@ -210,8 +227,12 @@ impl<'a> Scene<'a> {
         Some(gain * (2.0 * AIMED / period - pull) / self.coupling).filter(|kappa| *kappa > 0.0)
     }
 
-    fn damping(&self, kappa: f64) -> Vec<f64> {
+    fn borne(&self, kappa: f64) -> Vec<f64> {
         self.mobility.iter().map(|m| kappa / m).collect()
+    }
+
+    fn linear(&self, kappa: f64, mix: Mix) -> Vec<f64> {
+        self.borne(kappa).iter().zip(&self.heaviest).map(|(k, d)| k.min(mix.cap * d)).collect()
     }
 
     /// Pqq, such that Pqq Ω⁻¹ Pqq is at most the mix's share of `damping`.
@@ -235,6 +256,16 @@ impl<'a> Scene<'a> {
     }
 }
 
+/// The geometric middle between `high` and the smallest number above `low` for which `holds`.
+fn middle(low: f64, high: f64, holds: impl Fn(f64) -> Result<bool, Error>) -> Result<f64, Error> {
+    let (mut below, mut above) = (low, high);
+    for _ in 0..HALVINGS {
+        let between = libm::sqrt(below * above);
+        if holds(between)? { above = between } else { below = between }
+    }
+    Ok(libm::sqrt(above * high))
+}
+
 /// Time until q_e of one joint, at rest at the start, is at 1/20 of its initial value: d ṡ = −K s + Pqq q_e,
 /// q̇_e = −λ q_e + s with K/d = `rate`, P12 = λ = `pull` and Pqq Ω⁻¹ Pqq the share `stiff` of K, s.
 pub(super) fn settling_time(rate: f64, pull: f64, stiff: f64) -> f64 {
@@ -253,4 +284,27 @@ fn power(base: f64, k: i32) -> f64 {
 fn diagonal(entries: &[f64]) -> Vec<Vec<f64>> {
     let n = entries.len();
     (0..n).map(|i| (0..n).map(|j| if i == j { entries[i] } else { 0.0 }).collect()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_settling_time_is_that_of_the_joint() {
+        for (rate, pull, stiff) in [(40.0, 2.0, 0.25), (12.0, 3.0, 0.5), (400.0, 1.0, 0.1), (5.0, 5.0, 0.4)] {
+            let time = settling_time(rate, pull, stiff);
+            // q_e and s = q̇_e + λ q_e by small steps, from rest.
+            let steps = 200_000;
+            let h = time / f64::from(steps);
+            let (mut q, mut s) = (1.0, pull);
+            for _ in 0..steps {
+                let (dq, ds) = (s - pull * q, rate * (stiff * pull * q - s));
+                let (mq, ms) = (q + 0.5 * h * dq, s + 0.5 * h * ds);
+                (q, s) = (q + h * (ms - pull * mq), s + h * rate * (stiff * pull * mq - ms));
+            }
+            println!("K/d {rate}, λ {pull}, share {stiff}: 1/20 after {time:.3} s, there {q:.5}");
+            assert!((0.04..=0.05 + 1e-4).contains(&q), "{q}");
+        }
+    }
 }

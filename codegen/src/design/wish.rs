@@ -5,13 +5,15 @@ use super::search::{Candidate, Scene, Target};
 use super::{Stage, Tuning, checked, guarantee};
 use crate::check::vector;
 use crate::error::{Error, Faults};
-use crate::spec::DesignSpec;
+use crate::spec::{DesignSpec, VectorSpec};
 
 /// Periods that are tried, longest first, where none is asked for, s.
 const PERIODS: [f64; 7] = [0.01, 0.005, 0.002, 0.001, 0.0005, 0.0002, 0.0001];
 /// Halvings of the asked period, and then of the interval in which the longest sufficient one lies.
 const HALVINGS: usize = 8;
 const NEARER: usize = 4;
+/// Errors under half the period that are more than this share of those before show that the period is not at fault.
+const STALLED: f64 = 0.97;
 
 /// The gains that `wish` asks for.
 ///
@@ -91,19 +93,24 @@ pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
         return Err(faults.into_error());
     };
     let own_width = width(domain, n);
-    too_narrow(stage, &nearest, asked.as_deref(), own_width.as_deref(), &mut faults)?;
+    too_narrow(stage, wish, &nearest, asked.as_deref(), own_width.as_deref(), &mut faults)?;
     Err(faults.into_error())
 }
 
 /// The fault of a tube that errors leave under the best gains.
 fn too_narrow(
     stage: &Stage,
+    wish: &DesignSpec,
     nearest: &Candidate,
     asked: Option<&[f64]>,
     own: Option<&[f64]>,
     faults: &mut Faults,
 ) -> Result<(), Error> {
-    let list = |x: &[f64]| x.iter().map(|e| format!("{:.4}", e + 5e-5)).collect::<Vec<_>>().join(", ");
+    let up = |e: &f64| format!("{:.4}", e + 5e-5);
+    let list = |x: &[f64]| match x.split_first() {
+        Some((first, rest)) if rest.iter().all(|e| up(e) == up(first)) => up(first),
+        _ => format!("({})", x.iter().map(up).collect::<Vec<_>>().join(", ")),
+    };
     let errors = &nearest.judged.envelope.position_error;
     if !nearest.reach.is_finite() {
         let mend = "keep more functions in `model`, shorten the period, or compensate Coulomb friction";
@@ -111,16 +118,20 @@ fn too_narrow(
         faults.push("control.design", problem, mend);
         return Ok(());
     }
+    let shown = |asked: &[f64]| match (&wish.tube, asked) {
+        (Some(VectorSpec::Scalar(tube)), _) => tube.to_string(),
+        _ => format!("{asked:?}"),
+    };
     let enough = own.is_none_or(|own| errors.iter().zip(own).all(|(e, w)| e <= w));
     match asked {
         Some(asked) if enough => faults.push(
             "control.design.tube",
-            format!("({}) is too narrow: errors may reach ({})", list(asked), list(errors)),
-            format!("write at least ({}), or take a smaller initial error", list(errors)),
+            format!("{} is too narrow: errors may reach {}", shown(asked), list(errors)),
+            format!("write at least {}, or take a smaller initial error", list(errors)),
         ),
         Some(asked) => faults.push(
             "control.design.tube",
-            format!("({}) is too narrow: errors may reach ({})", list(asked), list(errors)),
+            format!("{} is too narrow: errors may reach {}", shown(asked), list(errors)),
             "take a smaller initial error, or widen it together with `measure.tube.position_error`",
         ),
         None => {
@@ -129,7 +140,7 @@ fn too_narrow(
             let less = most.iter().map(|e| format!("{:.3e}", e * 0.9995)).collect::<Vec<_>>().join(", ");
             faults.push(
                 "control.design",
-                format!("cannot be met: errors may reach ({}), beyond the measure", list(errors)),
+                format!("cannot be met: errors may reach {}, beyond the measure", list(errors)),
                 format!(
                     "widen `measure.tube.position_error`, or take an initial position error of at most ({less})"
                 ),
@@ -141,17 +152,20 @@ fn too_narrow(
 
 /// The longest period below `period`, to two digits, for which there are gains, s.
 fn longest(scene: &Scene, period: f64) -> Result<Option<f64>, Error> {
+    let (mut good, mut found, mut before) = (period, false, f64::INFINITY);
+    for _ in 0..HALVINGS {
+        good = two_digits(0.5 * good);
+        let Some((_, candidate)) = scene.firmest(good)? else { continue };
+        found = candidate.holds;
+        // Where more gain no longer helps, none will.
+        if found || (before.is_finite() && candidate.reach > STALLED * before) {
+            break;
+        }
+        before = candidate.reach;
+    }
     let holds = |trial: f64| -> Result<bool, Error> {
         Ok(scene.firmest(trial)?.is_some_and(|(_, candidate)| candidate.holds))
     };
-    let (mut good, mut found) = (period, false);
-    for _ in 0..HALVINGS {
-        good = two_digits(0.5 * good);
-        if holds(good)? {
-            found = true;
-            break;
-        }
-    }
     let mut bad = (2.0 * good).min(period);
     for _ in 0..NEARER {
         let middle = two_digits(0.5 * (good + bad));
