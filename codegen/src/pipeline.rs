@@ -19,7 +19,7 @@ use crate::reduction::{self, Reduced, Regression};
 use crate::spec::{LawSpec, MeasureSpec, ModelSpec, RefitSpec, Spec};
 
 /// Half-width of the tube where the specification names no measure, rad or m.
-const DEFAULT_TUBE: f64 = 0.05;
+pub(crate) const DEFAULT_TUBE: f64 = 0.05;
 
 /// Positions of the domain at which D is looked at.
 const POSITIONS: usize = 512;

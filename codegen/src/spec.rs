@@ -349,23 +349,32 @@ pub enum DictionarySpec {
     Harmonic,
 }
 
-/// The tracking law and its numbers.
+/// The tracking law and its numbers: those of the gains are given, or `design` asks for them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "if" = { "not": { "required": ["design"] } },
+    "then" = { "required": ["period", "W", "Pqq", "Omega"] }
+))]
 pub struct ControlSpec {
     /// Which law.
     pub law: LawSpec,
+    /// Asks for period, gains and boundary layer instead of giving them: excludes `period`, `W`, `Pqq`, `Omega` and
+    /// `boundary_layer`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub design: Option<DesignSpec>,
     /// Control period, s.
-    pub period: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub period: Option<f64>,
     /// W of equation (16): symmetric positive definite, N·m·s/rad.
-    #[serde(rename = "W")]
-    pub w: MatrixSpec,
+    #[serde(rename = "W", default, skip_serializing_if = "Option::is_none")]
+    pub w: Option<MatrixSpec>,
     /// Pqq of equation (12): symmetric positive definite, N·m/rad.
-    #[serde(rename = "Pqq")]
-    pub pqq: MatrixSpec,
+    #[serde(rename = "Pqq", default, skip_serializing_if = "Option::is_none")]
+    pub pqq: Option<MatrixSpec>,
     /// Ω of equation (16): symmetric positive definite; P12 = Pqq⁻¹Ω must be symmetric and element-wise nonnegative.
-    #[serde(rename = "Omega")]
-    pub omega: MatrixSpec,
+    #[serde(rename = "Omega", default, skip_serializing_if = "Option::is_none")]
+    pub omega: Option<MatrixSpec>,
     /// φ of the boundary layer, unit of s (rad/s or m/s); absent: the sign function.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub boundary_layer: Option<VectorSpec>,
@@ -396,6 +405,21 @@ pub struct ControlSpec {
     /// What the controller commands when a measurement is not finite.
     #[serde(default)]
     pub on_fault: OnFaultSpec,
+}
+
+/// What the gains are to achieve; diagonal W, Pqq, Ω and the layer φ are chosen so that the guarantee holds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DesignSpec {
+    /// Time in which the position error of a joint that starts at rest falls to 1/20, s: of the joint by itself, with
+    /// the largest inertia it can have in the domain, under the exact model and outside the robust term.
+    pub convergence_time: f64,
+    /// What |q_e| must never leave, rad or m. Default: the tube of the measure, which it must not exceed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tube: Option<VectorSpec>,
+    /// Control period, s. Default: the longest of 10, 5, 2, 1, 0.5, 0.2 and 0.1 ms for which there are gains.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub period: Option<f64>,
 }
 
 /// Tracking laws.

@@ -12,8 +12,8 @@ const SLACK: f64 = 1e-9;
 /// Checks period, boundary layer, initial errors, and the gains: W, Pqq, Ω symmetric positive definite, P12 = Pqq⁻¹Ω
 /// symmetric and element-wise nonnegative.
 pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut Faults) {
-    if control.period <= 0.0 {
-        faults.push("control.period", format!("is {}", control.period), "write a number above 0, in s");
+    if let Some(period) = control.period.filter(|period| *period <= 0.0) {
+        faults.push("control.period", format!("is {period}"), "write a number above 0, in s");
     }
     if let Some(layer) = &control.boundary_layer {
         let wanted = "a number above 0, or leave the field out for the sign function";
@@ -26,9 +26,12 @@ pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut F
     entries(velocity, &initial.velocity, joints, |v| v >= 0.0, wanted, faults);
     delta_c1(control, joints, faults);
     adaptation(control, faults);
-    definite("control.W", &control.w, joints, faults);
-    let pqq = definite("control.Pqq", &control.pqq, joints, faults);
-    let omega = definite("control.Omega", &control.omega, joints, faults);
+    let mut gain = |field, spec: &Option<MatrixSpec>| {
+        spec.as_ref().and_then(|spec| definite(field, spec, joints, faults))
+    };
+    gain("control.W", &control.w);
+    let pqq = gain("control.Pqq", &control.pqq);
+    let omega = gain("control.Omega", &control.omega);
     if let (Some(pqq), Some(omega)) = (pqq, omega) {
         p12(pqq, &omega, faults);
     }

@@ -1,6 +1,7 @@
 //! Whether the numbers of a specification make sense together with its arm.
 
 mod control;
+mod design;
 mod measure;
 mod motion;
 mod shape;
@@ -74,6 +75,7 @@ fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> 
     measure::check(spec, arm, joints, faults);
     if let Some(control) = &spec.control {
         control::check(control, joints, faults);
+        design::check(control, spec, joints, faults);
     }
     if let Some(duration) = spec.simulation.duration.filter(|v| *v <= 0.0) {
         faults.push("simulation.duration", format!("is {duration}"), "write a number above 0, in s");

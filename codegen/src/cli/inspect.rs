@@ -14,6 +14,7 @@ use crate::graph::Operations;
 use crate::load::load;
 use crate::measure::Domain;
 use crate::pipeline::Generation;
+use crate::spec::MatrixSpec;
 
 /// Shows the expansion, the chosen functions, bounds, gains and operation counts of a specification.
 #[derive(Debug, Args)]
@@ -115,7 +116,15 @@ struct AdaptationView<'a> {
 }
 
 #[derive(Serialize)]
+#[allow(non_snake_case, reason = "the specification's letters are the keys")]
 struct ControlView<'a> {
+    /// The gains, given or found, as a specification takes them.
+    W: MatrixSpec,
+    Pqq: MatrixSpec,
+    Omega: MatrixSpec,
+    /// Absent for the sign function.
+    boundary_layer: Option<&'a [f64]>,
+    period: f64,
     k_star: f64,
     v_max: f64,
     /// What V stays below, J.
@@ -155,6 +164,11 @@ fn view(generation: &Generation) -> Inspection<'_> {
     let control = design.as_ref().map(|design| {
         let Envelope { v_max, level, position_error, velocity_error, speed } = &design.envelope;
         ControlView {
+            W: as_written(&design.w),
+            Pqq: as_written(&design.gains.pqq),
+            Omega: as_written(&design.omega),
+            boundary_layer: design.boundary_layer.as_deref(),
+            period: design.period,
             k_star: design.k_star,
             v_max: *v_max,
             level: *level,
@@ -310,6 +324,7 @@ fn text(view: &Inspection, generation: &Generation) -> String {
         lines.push(format!("adapts {count} parameters: base and Y in {}", cost(&adaptation.operations)));
     }
     if let Some(control) = &view.control {
+        lines.push(gains(control));
         lines.push(format!("control: k* = {:.4}, V_max(0) = {:.4} J", control.k_star, control.v_max));
         lines.push(format!(
             "largest errors: position ({}), velocity ({})",
@@ -321,6 +336,33 @@ fn text(view: &Inspection, generation: &Generation) -> String {
         lines.extend(guarantee(promised));
     }
     lines.join("\n") + "\n"
+}
+
+/// A gain as one would write it: its diagonal, where that is all.
+fn as_written(gain: &[Vec<f64>]) -> MatrixSpec {
+    let n = gain.len();
+    let diagonal = (0..n).all(|i| (0..n).all(|j| i == j || gain[i][j] == 0.0));
+    if diagonal {
+        MatrixSpec::Diagonal((0..n).map(|i| gain[i][i]).collect())
+    } else {
+        MatrixSpec::Full(gain.to_vec())
+    }
+}
+
+fn gains(control: &ControlView) -> String {
+    let show = |gain: &MatrixSpec| match gain {
+        MatrixSpec::Scalar(value) => format!("{value:.4}"),
+        MatrixSpec::Diagonal(list) => format!("{list:.4?}"),
+        MatrixSpec::Full(rows) => format!("{rows:.4?}"),
+    };
+    let layer = control.boundary_layer.map_or("none".to_string(), |phi| format!("{phi:.4?}"));
+    format!(
+        "gains: W = {}, Pqq = {}, Omega = {}, boundary layer = {layer}, period = {} s",
+        show(&control.W),
+        show(&control.Pqq),
+        show(&control.Omega),
+        control.period
+    )
 }
 
 fn list(x: &[f64]) -> String {

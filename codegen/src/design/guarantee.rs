@@ -46,6 +46,10 @@ pub(super) struct Judgement {
     pub(super) delta_c: Vec<Vec<f64>>,
     pub(super) k_star: f64,
     pub(super) delta_c1: Vec<Vec<f64>>,
+    /// The largest switching gain ρ, N·m or N.
+    pub(super) gain: Vec<f64>,
+    /// Whether some level of V holds it.
+    pub(super) settled: bool,
     pub(super) guarantee: Guarantee,
 }
 
@@ -54,17 +58,19 @@ pub(super) struct Parts<'a> {
     pub(super) gains: &'a super::Gains,
     pub(super) form: super::reach::Form,
     pub(super) disturbance: &'a [f64],
-    pub(super) layer: Option<&'a [f64]>,
+    pub(super) tuning: &'a super::Tuning,
     /// Initial position and velocity error.
     pub(super) initial: [Vec<f64>; 2],
-    pub(super) delta_c1: Option<Vec<Vec<f64>>>,
     pub(super) adaptation: Option<&'a Adaptation>,
+    pub(super) delta_c1: Option<&'a [Vec<f64>]>,
+    /// Pass over final error, largest initial error and smallest tube, which a comparison of gains does not need.
+    pub(super) sketch: bool,
 }
 
 /// The joints whose torque limit is less than what the desired motion alone takes.
 ///
 /// That no limit cuts in during a transient is not judged: the guarantee supposes it.
-fn beyond_torque_limits(arm: &Arm, motion: &Motion) -> Vec<String> {
+pub(super) fn beyond_torque_limits(arm: &Arm, motion: &Motion) -> Vec<String> {
     let limits = arm.joints.iter().map(|joint| joint.limits.torque);
     (1..)
         .zip(peak_torque(arm, motion).into_iter().zip(limits))
@@ -92,9 +98,10 @@ impl Parts<'_> {
         };
         let course = self.course(&facts, &reach)?;
         let v_max = level(position);
-        let settled = course.settle(v_max, position)?;
+        let level_found = course.settle(v_max, position)?;
+        let settled = level_found.is_some();
         let mut reasons = Vec::new();
-        let envelope = match settled {
+        let envelope = match level_found {
             Some(envelope) => envelope,
             None => {
                 reasons.push(
@@ -107,31 +114,36 @@ impl Parts<'_> {
         };
         let delta_c = bounds.coriolis(&envelope.speed);
         let k_star = family::smallest_multiple(&delta_c);
-        let delta_c1 = self.delta_c1.clone().unwrap_or_else(|| family::multiple_of_identity(k_star, n));
+        let delta_c1 =
+            self.delta_c1.map(<[_]>::to_vec).unwrap_or_else(|| family::multiple_of_identity(k_star, n));
 
         let load = course.load(&envelope.position_error, &envelope.velocity_error, &delta_c);
-        let period_max = self.longest_period(&inertia, over, &delta_c1, &course, &load.gain);
-        let final_error = course.final_error(&envelope, &delta_c)?;
+        let period_max = self.longest_period(&inertia, over.clone(), &delta_c1, &course, &load.gain);
+        let final_error = if self.sketch {
+            envelope.position_error.clone()
+        } else {
+            course.final_error(&inertia, over, &envelope, &delta_c)?
+        };
 
         if !facts.certified {
             reasons.push("the bounds on D over the domain could not be certified".to_string());
         }
-        if control.period >= period_max {
+        if self.tuning.period >= period_max {
             reasons.push(format!(
                 "the period of {} s is longer than the {period_max:.3e} s up to which the sampled loop is stable",
-                control.period
+                self.tuning.period
             ));
         }
         reasons.extend(motion.map_or(Vec::new(), |motion| beyond_torque_limits(arm, motion)));
         let chatter = course.ball(&load, true) + course.parameter_energy();
-        if control.law.is_robust() && self.layer.is_none() && chatter > envelope.level {
+        if control.law.is_robust() && self.layer().is_none() && chatter > envelope.level {
             reasons.push(format!(
                 "the sign function, held for {} s, may raise V from {:.3e} J to {:.3e} J: take a boundary layer or a shorter period",
-                control.period, envelope.level, chatter
+                self.tuning.period, envelope.level, chatter
             ));
         }
         let leaves = outside(domain, motion, arm, &envelope.position_error);
-        let wanted = self.problem.seek_tube || control.require_guarantee;
+        let wanted = !self.sketch && (self.problem.seek_tube || control.require_guarantee);
         let tube_needed = if !facts.certified || !wanted {
             None
         } else if leaves.is_empty() || width(domain, n).is_none() {
@@ -144,7 +156,8 @@ impl Parts<'_> {
             let settled = course.settle(level(&scaled), &scaled)?;
             Ok(settled.is_some_and(|e| outside(domain, motion, arm, &e.position_error).is_empty()))
         };
-        let initial_error_max = largest_share(&shape(position, &own), inside)?;
+        let initial_error_max =
+            if self.sketch { position.clone() } else { largest_share(&shape(position, &own), inside)? };
         if !leaves.is_empty() {
             reasons.push(leaves.join("; "));
         }
@@ -157,7 +170,7 @@ impl Parts<'_> {
             tube_needed,
             inertia: facts,
         };
-        Ok(Judgement { envelope, delta_c, k_star, delta_c1, guarantee })
+        Ok(Judgement { envelope, delta_c, k_star, delta_c1, gain: load.gain, settled, guarantee })
     }
 
     fn course<'b>(&'b self, inertia: &'b InertiaBounds, reach: &[f64]) -> Result<Course<'b>, Error> {
@@ -178,9 +191,9 @@ impl Parts<'_> {
             speed: motion.map_or_else(|| limit(|l| l.velocity), |m| m.largest_speed()),
             acceleration: motion.map_or_else(|| limit(|l| l.acceleration), |m| m.largest_acceleration()),
             disturbance: self.disturbance,
-            layer: self.layer,
-            period: control.period,
-            lag: motion.map_or_else(|| vec![0.0; arm.dof()], |m| super::lag(arm, m, control.period)),
+            layer: self.layer(),
+            period: self.tuning.period,
+            lag: motion.map_or_else(|| vec![0.0; arm.dof()], |m| super::lag(arm, m, self.tuning.period)),
             learning: self.adaptation.map(learning).transpose()?,
         })
     }
@@ -195,7 +208,7 @@ impl Parts<'_> {
     ) -> f64 {
         let control = self.problem.control;
         let n = gain.len();
-        let mut slope: Vec<f64> = match self.layer {
+        let mut slope: Vec<f64> = match self.layer() {
             Some(phi) if control.law.is_robust() => {
                 gain.iter().zip(phi).map(|(rho, phi)| rho / phi).collect()
             }
@@ -204,13 +217,17 @@ impl Parts<'_> {
         if let Some(learning) = &course.learning {
             // Stability of small motions: what learning does in large ones counts in the ball.
             let (rates, _) = course.rates(&vec![0.0; n], &vec![0.0; n]);
-            let more = learning.gain(&rates, control.period);
+            let more = learning.gain(&rates, self.tuning.period);
             slope.iter_mut().zip(more).for_each(|(slope, more)| *slope += more);
         }
         let zero = vec![vec![0.0; n]; n];
         let more = if self.has_matrix() { delta_c1 } else { &zero };
         let pull = super::linalg::symmetric_eigenvalues(&self.gains.p12).last().copied().unwrap_or(0.0);
         2.0 / (fastest(inertia, over, &total(&self.gains.damping, more, &slope)) + pull)
+    }
+
+    fn layer(&self) -> Option<&[f64]> {
+        self.tuning.boundary_layer.as_deref()
     }
 
     fn has_matrix(&self) -> bool {

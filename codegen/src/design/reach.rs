@@ -11,9 +11,9 @@ use crate::error::Error;
 use crate::spec::{CoriolisTermSpec, LawSpec};
 
 /// Relative gap at which the search for extremes of D ends.
-const TOLERANCE: f64 = 0.05;
+pub(super) const TOLERANCE: f64 = 0.05;
 /// Vertices at which a search over a domain may look, for an arm of one joint; the cost of each grows with n².
-const BUDGET: usize = 200_000;
+pub(super) const BUDGET: usize = 200_000;
 /// The same for the positions about the start.
 const START_BUDGET: usize = 2_000;
 /// Rounds in which the level of V must settle.
@@ -52,7 +52,7 @@ pub(super) struct Load {
     /// The largest switching gain ρ, N·m; for law (16) what the model leaves out.
     pub(super) gain: Vec<f64>,
     /// sup|Yθ_e|, N·m: what a layer that teaches nothing leaves of the wrong parameters.
-    taught: Vec<f64>,
+    pub(super) taught: Vec<f64>,
     /// The part of zᵀMz that the Euler steps of the learning take back.
     step: f64,
 }
@@ -223,12 +223,7 @@ impl Course<'_> {
                 };
                 c = gain.iter().zip(phi).zip(taught).map(cost).sum::<f64>();
             }
-            (_, None) if chatter => {
-                // A held sign is wrong for at most a period, in which it moves s_j by T Σ|D⁻¹|_jk 2ρ_k.
-                let mobility = &self.inertia.mobility;
-                let sum: f64 = gain.iter().zip(mobility).map(|(rho, m)| rho * libm::sqrt(*m)).sum();
-                c = 4.0 * self.period * sum * sum;
-            }
+            (_, None) if chatter => c = self.chatter(gain),
             (_, None) => {}
         }
         let row =
@@ -240,6 +235,14 @@ impl Course<'_> {
         }
         let x = 0.5 * (eta + libm::sqrt(eta * eta + 4.0 * c * left)) / left;
         0.5 * self.inertia.time * x * x
+    }
+
+    /// The power that a held sign function may put into V, W: it is wrong for at most a period, in which it moves s_j
+    /// by T Σ|D⁻¹|_jk 2ρ_k.
+    pub(super) fn chatter(&self, gain: &[f64]) -> f64 {
+        let mobility = &self.inertia.mobility;
+        let sum: f64 = gain.iter().zip(mobility).map(|(rho, m)| rho * libm::sqrt(*m)).sum();
+        4.0 * self.period * sum * sum
     }
 
     /// The level that V never leaves and what follows, with ΔC of that level; `None` where no level holds it.
@@ -269,8 +272,13 @@ impl Course<'_> {
         self.learning.as_ref().map_or(0.0, |learning| learning.energy)
     }
 
-    /// |q_e| in the end, equation (17) with a layer: the errors of the last level of V, started from `envelope`.
-    pub(super) fn final_error(&self, envelope: &Envelope, delta_c: &[Vec<f64>]) -> Result<Vec<f64>, Error> {
+    /// |q_e| and |q̇_e| in the end, equation (17) with a layer: the errors of the last level of V, started from
+    /// `envelope`.
+    pub(super) fn final_errors(
+        &self,
+        envelope: &Envelope,
+        delta_c: &[Vec<f64>],
+    ) -> Result<(Vec<f64>, Vec<f64>), Error> {
         let rest = vec![0.0; self.speed.len()];
         let mut v = envelope.level;
         for _ in 0..ROUNDS {
@@ -281,8 +289,9 @@ impl Course<'_> {
             }
             v = next;
         }
-        let (position, _) = self.errors(v, &rest)?;
-        Ok(position.iter().zip(&envelope.position_error).map(|(a, b)| a.min(*b)).collect())
+        let (position, velocity) = self.errors(v, &rest)?;
+        let least = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a.min(*b)).collect();
+        Ok((least(&position, &envelope.position_error), least(&velocity, &envelope.velocity_error)))
     }
 }
 
@@ -338,6 +347,6 @@ fn largest_form(m: &DMatrix<f64>, b: &[f64]) -> f64 {
 }
 
 /// Σ |a_i| b_i.
-fn weighed(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn weighed(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a.abs() * b).sum()
 }

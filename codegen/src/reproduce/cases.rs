@@ -65,7 +65,7 @@ pub fn run() -> Result<Cases, Error> {
         simplified: simulate(&Scenario::of(&nominal)?)?,
         nominal,
         layered: alone(&|control| layer(control, LAYERS[0]))?,
-        printed: alone(&|control| control.pqq = MatrixSpec::Scalar(4.0))?,
+        printed: alone(&|control| control.pqq = Some(MatrixSpec::Scalar(4.0)))?,
         loaded: [loaded(PERIODS[0])?, loaded(PERIODS[1])?],
     })
 }
@@ -83,7 +83,7 @@ fn loaded(period: f64) -> Result<LoadedCases, Error> {
     let both = |edit: &dyn Fn(&mut ControlSpec)| -> Result<[Comparison; 2], Error> {
         let generation = generation(|control| {
             control.uncertainty = Some(load());
-            control.period = period;
+            control.period = Some(period);
             edit(control);
         })?;
         let scenario = Scenario::of(&generation)?;

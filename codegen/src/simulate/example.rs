@@ -58,10 +58,11 @@ impl Example {
         };
         let control = ControlSpec {
             law: if functions.is_some() { LawSpec::Report } else { LawSpec::Exact },
-            period: 0.01,
-            w: MatrixSpec::Scalar(40.0),
-            pqq: MatrixSpec::Scalar(0.25),
-            omega: MatrixSpec::Scalar(1.0),
+            design: None,
+            period: Some(0.01),
+            w: Some(MatrixSpec::Scalar(40.0)),
+            pqq: Some(MatrixSpec::Scalar(0.25)),
+            omega: Some(MatrixSpec::Scalar(1.0)),
             boundary_layer: boundary_layer.map(VectorSpec::Scalar),
             initial_error: InitialErrorSpec {
                 position: VectorSpec::Scalar(0.2),
