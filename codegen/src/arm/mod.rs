@@ -1,17 +1,21 @@
 //! The arm: validated joints and inertias in one normal form, whatever file they came from.
 
+mod base_parameters;
 mod body;
 mod definite;
 mod dh;
 mod drive;
+mod frames;
 mod place;
 mod transform;
 mod uncertainty;
 mod urdf;
 mod validate;
 
+pub(crate) use base_parameters::{Along, Mass};
 pub use crate::spec::JointKind;
 pub use definite::{Indefinite, indefinite, indefinite_among};
+pub(crate) use frames::Origin;
 pub use transform::Transform;
 pub use uncertainty::{MOST_PARAMETERS, Parameter, Uncertainty};
 

@@ -49,3 +49,14 @@ fn the_recursion_does_not_take_the_first_joint_s_angle_where_gravity_is_along_it
     let graph = recursive(&arm("ur5.json"));
     assert_eq!(graph.operations().trig_pairs, 5);
 }
+
+#[test]
+#[ignore]
+fn show() {
+    for file in ["../../generated/specs/arm3_exact.json", "puma3.json", "../../generated/specs/puma560_exact.json", "ur5.json", "panda.json", "stanford.json"] {
+        let arm = arm(file);
+        let t = std::time::Instant::now();
+        let g = recursive(&arm);
+        println!("{file}: {:?} = {} in {:?}", g.operations(), g.operations().arithmetic(), t.elapsed());
+    }
+}
