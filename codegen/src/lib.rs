@@ -45,6 +45,7 @@ pub mod pipeline;
 pub mod reduction;
 pub mod report;
 pub mod simulate;
+pub mod sines;
 pub mod spec;
 pub mod spread;
 

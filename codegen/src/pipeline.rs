@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use crate::arm::{Arm, Built, indefinite, indefinite_among};
+use crate::arm::{Arm, Built, JointKind, indefinite, indefinite_among};
 use crate::body::{self, Form};
-use crate::bounds::{Bounds, Certificate, Effort, certified};
+use crate::bounds::{Bounds, Certificate, Effort, certified, reach, recursion, with_sines};
 use crate::check::{examine, vector};
 use crate::design::{Design, Problem, checked, design};
 use crate::dynamics::mass_matrix;
@@ -16,6 +16,7 @@ use crate::load::{Loaded, load, spec_hash};
 use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::reduction::{self, Reduced};
+use crate::sines::Sines;
 use crate::spec::{MeasureSpec, ModelSpec, RefitSpec, Spec};
 
 /// Half-width of the tube where the specification names no measure, rad or m.
@@ -90,9 +91,14 @@ impl Generation {
         }
         let lagrangian = expand(&arm);
         check_count(spec, &lagrangian, &mut faults);
-        faults.finish(())?;
+        if !faults.is_empty() {
+            return Err(faults.into_error());
+        }
 
         let domain = domain(spec, &arm)?;
+        let sines = Sines::new(&spec.emit.trig);
+        check_angles(&sines, &reach(&domain, motion.as_ref()), &arm, &mut faults);
+        faults.finish(())?;
         let measure = Measure::new(&domain, motion.as_ref(), &arm);
         let refused = |report: &dyn Fn(&mut Faults)| {
             let mut faults = Faults::of(&loaded.path);
@@ -117,20 +123,28 @@ impl Generation {
             ),
             RefitSpec::LeastSquares => reduced,
         };
-        let certificates = certified(&lagrangian, &reduced, &domain, motion.as_ref(), effort);
-        let deltas: Vec<f64> = certificates.iter().map(|certificate| certificate.bound).collect();
-        let bounds = Bounds::new(&lagrangian, &deltas);
+        let (exact_form, exact_code) = body::exact(&arm, &lagrangian);
+        let (form, mut code) = match spec.model {
+            ModelSpec::Exact => (exact_form, exact_code.clone()),
+            ModelSpec::Shared { .. } => (Form::Expanded, body::expanded(&arm, &lagrangian, &reduced)),
+        };
+        let mut certificates = certified(&lagrangian, &reduced, &domain, motion.as_ref(), effort);
+        let bounds = if form == Form::Recursive && !sines.rounds() {
+            let bounds = recursion(&arm, &reach(&domain, motion.as_ref()), sines.error);
+            certificates = bounds.certificates(&lagrangian);
+            bounds
+        } else {
+            certificates = with_sines(certificates, &lagrangian, &reduced, &domain, motion.as_ref(), &sines);
+            let deltas: Vec<f64> = certificates.iter().map(|certificate| certificate.bound).collect();
+            Bounds::new(&lagrangian, &deltas)
+        };
+        code.sines = sines;
         if !(reduced.is_finite() && bounds.is_finite()) {
             let mend = "write positions, speeds and the measure in SI units";
             return refused(&|faults| {
                 faults.push("measure", "reaches states at which the model overflows", mend)
             });
         }
-        let (exact_form, exact_code) = body::exact(&arm, &lagrangian);
-        let (form, code) = match spec.model {
-            ModelSpec::Exact => (exact_form, exact_code.clone()),
-            ModelSpec::Shared { .. } => (Form::Expanded, body::expanded(&arm, &lagrangian, &reduced)),
-        };
         let design = spec
             .control
             .as_ref()
@@ -200,6 +214,18 @@ fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Faults) {
             format!("write a number from 1 to {p}, or `\"exact\"`"),
         ),
         ModelSpec::Shared { .. } | ModelSpec::Exact => {}
+    }
+}
+
+/// Faults where the domain holds angles for which the sines chosen promise nothing.
+fn check_angles(sines: &Sines, reach: &[f64], arm: &Arm, faults: &mut Faults) {
+    let turning = arm.joints.iter().zip(reach).filter(|(joint, _)| joint.kind == JointKind::Revolute);
+    for (joint, most) in turning.filter(|(_, most)| **most > sines.range) {
+        faults.push(
+            "emit.trig",
+            format!("takes angles up to {:.1} rad, and {} may reach {most:.1} rad", sines.range, joint.name),
+            "write \"libm\", or correct the motion or the limits",
+        );
     }
 }
 

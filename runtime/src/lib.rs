@@ -74,6 +74,7 @@ pub mod reference;
 pub mod simulate;
 #[cfg(test)]
 mod test_arm;
+pub mod trig;
 mod vector;
 
 pub use controller::{Command, Controller, OnFault, Settings};

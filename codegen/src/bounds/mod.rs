@@ -9,25 +9,30 @@ mod ascent;
 mod branch;
 mod estimate;
 mod polynomial;
+mod recursion;
 mod region;
 mod residual;
 mod rounding;
+mod sines;
 mod tensors;
 #[cfg(test)]
 mod tests;
 mod torque;
 
 pub use estimate::estimate;
+pub use recursion::recursion;
+pub use region::reach;
+pub use sines::with_sines;
 pub use torque::{Rates, peak_torque, torque_error};
 
 use rayon::prelude::*;
 
-use crate::lagrangian::{Entry, Lagrangian};
+use crate::lagrangian::{Coefficient, Entry, Lagrangian};
 use crate::measure::Domain;
 use crate::motion::Motion;
 use crate::reduction::Reduced;
 use polynomial::Polynomial;
-use region::{Region, reach};
+use region::Region;
 use residual::Residual;
 
 /// A residual below this fraction of its coefficient's Σ|k_l| need not be bounded more sharply than by half.
@@ -78,12 +83,14 @@ pub struct Certificate {
     pub time: Option<f64>,
     /// Boxes that branch and bound enclosed.
     pub boxes: usize,
+    /// The part of the bound that stands for sines and cosines off by more than an ulp.
+    pub sines: f64,
 }
 
 impl Certificate {
-    /// bound/found; 1 for an exact coefficient.
+    /// bound/found; 1 for a coefficient that is not simplified.
     pub fn ratio(&self) -> f64 {
-        if self.bound == 0.0 { 1.0 } else { self.bound / self.found }
+        if self.boxes == 0 || self.bound == 0.0 { 1.0 } else { self.bound / self.found }
     }
 }
 
@@ -107,7 +114,7 @@ pub fn certified(
             let rounding = rounding::published(lagrangian, m, &reduced.combinations[m], &reach);
             let bound = (proof.upper + rounding).next_up();
             let (time, witness) = region.position(lagrangian.dof, &proof.found.x);
-            Certificate { bound, found: proof.found.height, witness, time, boxes: proof.boxes }
+            Certificate { bound, found: proof.found.height, witness, time, boxes: proof.boxes, sines: 0.0 }
         })
         .collect()
 }
@@ -171,6 +178,27 @@ impl Bounds {
             }
         }
         out
+    }
+
+    /// For each coefficient the largest bound of its places, nothing searched.
+    pub fn certificates(&self, lagrangian: &Lagrangian) -> Vec<Certificate> {
+        let at = |entry: Entry| match entry {
+            Entry::D(i, j) => self.d[i][j].max(self.d[j][i]),
+            Entry::H(i, j, k) => self.h[i][j][k],
+            Entry::G(i) => self.g[i],
+        };
+        let largest = |c: &Coefficient| c.places.iter().fold(0.0, |most: f64, place| most.max(at(place.entry)));
+        let certificate = |bound: f64| Certificate { bound, sines: bound, ..Certificate::default() };
+        lagrangian.coefficients.iter().map(|c| certificate(largest(c))).collect()
+    }
+
+    /// Bound on |δD a_r + δC v_r + δG| by joint, N·m or N, for rates up to `rates`: every entry at its largest.
+    pub fn torque(&self, rates: &Rates) -> Vec<f64> {
+        let (a, v, w) = (&rates.reference_acceleration, &rates.speed, &rates.reference_speed);
+        let sum = |row: &[f64], x: &[f64]| row.iter().zip(x).map(|(e, x)| e * x).sum::<f64>();
+        let coriolis = |plane: &[Vec<f64>]| plane.iter().zip(w).map(|(row, w)| sum(row, v) * w).sum::<f64>();
+        let torque = |i: usize| sum(&self.d[i], a) + coriolis(&self.h[i]) + self.g[i];
+        (0..self.g.len()).map(|i| torque(i) * (1.0 + rounding::gamma(1024.0))).collect()
     }
 
     /// Equation (30): ΔC_ij = Σ_k Δh_ijk max|q̇_k|, with the largest speeds given.

@@ -90,6 +90,7 @@ pub fn torque_error(
             let mut extra = 0.0;
             let mut parts = Vec::new();
             for (m, residual) in residuals.iter().enumerate() {
+                extra += multipliers[m] * certificates[m].sines;
                 let Some(residual) = residual.as_ref().filter(|_| multipliers[m] > 0.0) else { continue };
                 extra +=
                     multipliers[m] * rounding::published(lagrangian, m, &reduced.combinations[m], &reach);

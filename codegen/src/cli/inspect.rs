@@ -6,6 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{json, show_warnings};
+use crate::body::Form;
 use crate::bounds::{Bounds, Effort, Rates, estimate, peak_torque, torque_error};
 use crate::design::Envelope;
 use crate::emit::{domain_in_words, verdict};
@@ -201,6 +202,9 @@ fn torque(generation: &Generation) -> Option<Vec<f64>> {
         (Domain::Workspace(_), _) | (_, None) => Rates::limits(arm)?,
         (_, Some(motion)) => Rates::of(motion),
     };
+    if generation.form == Form::Recursive {
+        return Some(generation.bounds.torque(&rates));
+    }
     Some(torque_error(lagrangian, reduced, domain, motion, certificates, &rates))
 }
 

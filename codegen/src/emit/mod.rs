@@ -4,6 +4,7 @@ mod constants;
 mod controller;
 mod docs;
 mod literal;
+mod sines;
 mod statements;
 
 pub(crate) use docs::{domain as domain_in_words, verdict};
@@ -65,12 +66,15 @@ pub fn emit(module: &Module) -> Result<String, Error> {
     let controller = controller::controller(module, &model)?;
     let parameters = statements::parameters(module.code);
     let body = statements::body(module.code)?;
+    let table = sines::table(&module.code.sines)?;
     let tokens = quote! {
         #(#[doc = #docs])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         pub struct #model;
 
         #constants
+
+        #table
 
         impl ::gramforge_runtime::Model<#n> for #model {
             type Scalar = f64;
