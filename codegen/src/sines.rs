@@ -165,8 +165,8 @@ impl PartialEq for Sines {
     }
 }
 
-/// (sin 2πk/n, cos 2πk/n), n a multiple of 8, within 2u: from an angle of at most π/4, so that symmetric entries are equal and
-/// the quarters of the turn exact.
+/// (sin 2πk/n, cos 2πk/n), n a multiple of 8, within 2u: from an angle of at most π/4, so that symmetric entries are
+/// equal and the quarters of the turn exact.
 fn node(k: usize, n: usize) -> (f64, f64) {
     let (quadrant, within) = (k / (n / 4), k % (n / 4));
     let mirrored = within > n / 8;

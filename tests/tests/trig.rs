@@ -73,9 +73,15 @@ fn search(count: usize, stride: usize) {
     let (bound, range) = (<Polynomial as Trig<f64>>::ERROR, <Polynomial as Trig<f64>>::RANGE);
     let error = |x| error64(&Polynomial, x);
     let found = [worst(angles(count, range), error), worst(corners(stride, range), error)];
-    let found = found.map(|start| climb(error, start)).into_iter().fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a });
+    let found = found
+        .map(|start| climb(error, start))
+        .into_iter()
+        .fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a });
     let edge = worst([range, -range, range.next_down()].into_par_iter(), error);
-    println!("f64: {:.4e} at {:?}, at the ends of the range {:.4e}; stated {bound:e}", found.0, found.1, edge.0);
+    println!(
+        "f64: {:.4e} at {:?}, at the ends of the range {:.4e}; stated {bound:e}",
+        found.0, found.1, edge.0
+    );
     assert!(found.0 <= bound && edge.0 <= bound, "{found:?} {edge:?}");
     assert!(found.0 > 0.7 * bound, "the bound is far too large: {found:?}");
 }

@@ -187,7 +187,8 @@ impl Bounds {
             Entry::H(i, j, k) => self.h[i][j][k],
             Entry::G(i) => self.g[i],
         };
-        let largest = |c: &Coefficient| c.places.iter().fold(0.0, |most: f64, place| most.max(at(place.entry)));
+        let largest =
+            |c: &Coefficient| c.places.iter().fold(0.0, |most: f64, place| most.max(at(place.entry)));
         let certificate = |bound: f64| Certificate { bound, sines: bound, ..Certificate::default() };
         lagrangian.coefficients.iter().map(|c| certificate(largest(c))).collect()
     }

@@ -1,11 +1,12 @@
 //! What sines and cosines that are off by more than rounding do to the recursive body.
 //!
-//! There sin² + cos² = 1 is used without being computed, so the error is not that of an expansion. But the recursion is
-//! linear in every joint's rotation R_j wherever that occurs, and where sine and cosine are off by ε the rotation is off by
-//! √2 ε in norm: in the plane that it turns, R_j times a number of modulus below √2 ε is added. A sum of products of
-//! operators, vectors and the symmetric bilinear form of Γ = [ω̇]× + ½(ω ω_rᵀ + ω_r ωᵀ) − (ω·ω_r)·1 therefore changes by no more than the same
-//! sum over norms does when every ‖R_j‖ = 1 is replaced by 1 + √2 ε. That sum is computed here, by the same recursion, for unit rates one at
-//! a time: ΔD, Δh and ΔG come out entry by entry, also where the exact entry is zero.
+//! There sin² + cos² = 1 is used without being computed, so the error is not that of an expansion. But the recursion
+//! is linear in every joint's rotation R_j wherever that occurs, and where sine and cosine are off by ε the rotation
+//! is off by √2 ε in norm: in the plane that it turns, R_j times a number of modulus below √2 ε is added. A sum of
+//! products of operators, vectors and the symmetric bilinear form of Γ = [ω̇]× + ½(ω ω_rᵀ + ω_r ωᵀ) − (ω·ω_r)·1
+//! therefore changes by no more than the same sum over norms does when every ‖R_j‖ = 1 is replaced by 1 + √2 ε. That
+//! sum is computed here, by the same recursion, for unit rates one at a time: ΔD, Δh and ΔG come out entry by entry,
+//! also where the exact entry is zero.
 //!
 //! Norms: ‖Γ‖ ≤ |ω̇| + |ω||ω_r|; the axial vector of ΓΣ − (ΓΣ)ᵀ ≤ √2 ‖Γ‖ ‖Σ‖_F.
 
@@ -29,7 +30,11 @@ impl Size {
 
     /// The change, and roundings of code that is as long as a recursion.
     fn bound(self) -> f64 {
-        if self.change == 0.0 { 0.0 } else { (self.change + gamma(1024.0) * (self.exact + self.change)).next_up() }
+        if self.change == 0.0 {
+            0.0
+        } else {
+            (self.change + gamma(1024.0) * (self.exact + self.change)).next_up()
+        }
     }
 }
 

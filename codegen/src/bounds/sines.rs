@@ -1,7 +1,7 @@
 //! What sines and cosines that are off by more than an ulp add to the bounds of an expanded model.
 //!
-//! Where sine and cosine of every q_j are off by ε at most, cos q_j + i sin q_j is off by √2 ε. The code builds cos κ·q and
-//! sin κ·q as the parts of the product of |κ|₁ = Σ|κ_j| such numbers, or their conjugates, so they are off by
+//! Where sine and cosine of every q_j are off by ε at most, cos q_j + i sin q_j is off by √2 ε. The code builds cos
+//! κ·q and sin κ·q as the parts of the product of |κ|₁ = Σ|κ_j| such numbers, or their conjugates, so they are off by
 //! (1 + √2 ε)^|κ|₁ − 1, and α̂_m by
 //!
 //! S_m = Σ_l |k̂_l| sup|monomial of ψ_l| ((1 + √2 ε)^|κ_l|₁ − 1).

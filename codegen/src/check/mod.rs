@@ -79,7 +79,8 @@ fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> 
     if let TrigSpec::Table { error } = spec.emit.trig
         && !(FINEST..=COARSEST).contains(&error)
     {
-        let mend = format!("write a number from {FINEST:e} to {COARSEST}, or \"polynomial\" in place of the table");
+        let mend =
+            format!("write a number from {FINEST:e} to {COARSEST}, or \"polynomial\" in place of the table");
         faults.push("emit.trig.table.error", format!("is {error}"), mend);
     }
     if let Some(duration) = spec.simulation.duration.filter(|v| *v <= 0.0) {

@@ -232,7 +232,8 @@ fn text(view: &Inspection, generation: &Generation) -> String {
     lines.push(format!("emitted ({}): {}", view.form, cost(&view.operations.reduced)));
     lines.push(format!("exact:   {}", cost(&view.operations.exact)));
     lines.push(format!("verdict: {}", view.verdict));
-    if !view.selected.is_empty() {
+    let bounded = !view.selected.is_empty() || !generation.code.sines.rounds();
+    if bounded {
         let largest = |values: &mut dyn Iterator<Item = &f64>| values.fold(0.0_f64, |a, &b| a.max(b));
         lines.push(format!(
             "bounds ({}) over {}: dD <= {}, dh <= {}, dG <= {}",
@@ -243,7 +244,7 @@ fn text(view: &Inspection, generation: &Generation) -> String {
             up(largest(&mut view.bounds.G.iter())),
         ));
     }
-    if let Some(torque) = view.torque_error.as_ref().filter(|_| !view.selected.is_empty()) {
+    if let Some(torque) = view.torque_error.as_ref().filter(|_| bounded) {
         let peak = view.peak_torque.as_ref().map_or(String::new(), |peak| format!(" of {}", list(peak)));
         lines.push(format!("torque error (certified) <= {}{peak}", list(torque)));
     }

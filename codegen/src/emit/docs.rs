@@ -81,7 +81,10 @@ fn taken(sines: &Sines) -> Option<String> {
         }
     };
     let error = up(sines.error);
-    Some(format!(" Sines and cosines: {way}, off by at most {error:.3e} up to {:.0} rad.", libm::floor(sines.range)))
+    Some(format!(
+        " Sines and cosines: {way}, off by at most {error:.3e} up to {:.0} rad.",
+        libm::floor(sines.range)
+    ))
 }
 
 /// Documentation of the guarantee, a line each.

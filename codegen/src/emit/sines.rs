@@ -29,7 +29,10 @@ pub(super) fn table(sines: &Sines) -> Result<TokenStream, Error> {
     };
     let pairs = spaced(sines.pairs.iter().map(pair).collect::<Result<Vec<_>, _>>()?);
     let n = count(n);
-    let doc = format!(" Sines and cosines of one turn; interpolated, none is off by more than {:.3e}.", up(sines.error));
+    let doc = format!(
+        " Sines and cosines of one turn; interpolated, none is off by more than {:.3e}.",
+        up(sines.error)
+    );
     Ok(quote! {
         #[doc = #doc]
         pub static SINES: ::gramforge_runtime::trig::Table<f64, #n> = ::gramforge_runtime::trig::Table::new(#pairs);

@@ -65,7 +65,8 @@ impl Builder {
             }
         }
         let mut new = vec![0; nodes.len()];
-        let mut graph = Graph { nodes: Vec::new(), names: Vec::new(), outputs: Vec::new(), sines: Sines::default() };
+        let mut graph =
+            Graph { nodes: Vec::new(), names: Vec::new(), outputs: Vec::new(), sines: Sines::default() };
         for (id, (node, name)) in nodes.into_iter().zip(names).enumerate() {
             if needed[id] {
                 new[id] = graph.nodes.len();

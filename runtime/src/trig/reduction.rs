@@ -5,8 +5,8 @@ pub(super) trait Reduction: Sized {
     /// Integers up to this one may be taken.
     const MOST: u32;
 
-    /// For the step h = `quarters`·π/2 with `quarters` a power of two, the integer k nearest to x/h in two's complement,
-    /// and x − k h; `None` where |k| would exceed [`MOST`](Self::MOST), and for NaN.
+    /// For the step h = `quarters`·π/2 with `quarters` a power of two, the integer k nearest to x/h in two's
+    /// complement, and x − k h; `None` where |k| would exceed [`MOST`](Self::MOST), and for NaN.
     fn reduce(self, quarters: Self) -> Option<(usize, Self)>;
 }
 

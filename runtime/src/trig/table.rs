@@ -1,22 +1,24 @@
 //! Sine and cosine by a table of both over one turn, and second-order interpolation.
 //!
-//! The angle is x = θ_k + δ, θ_k = 2πk/N the nearest node. The derivatives of a sine are in the table anyway, since it holds
-//! the cosine, so interpolation takes Taylor's polynomial about the node:
+//! The angle is x = θ_k + δ, θ_k = 2πk/N the nearest node. The derivatives of a sine are in the table anyway, since
+//! it holds the cosine, so interpolation takes Taylor's polynomial about the node:
 //!
 //!     sin x ≈ sin θ_k (1 − δ²/2) + cos θ_k δ      cos x ≈ cos θ_k (1 − δ²/2) − sin θ_k δ
 //!
-//! with an error of |δ|³/6, |δ| ≤ π/N, in either: sizes double for an error eight times less. δ comes from the reduction of
-//! [`Polynomial`](super::Polynomial), its π/2 scaled by 4/N, which is exact.
+//! with an error of |δ|³/6, |δ| ≤ π/N, in either: sizes double for an error eight times less. δ comes from the
+//! reduction of [`Polynomial`](super::Polynomial), its π/2 scaled by 4/N, which is exact.
 //!
 //! # Error
 //!
 //! With u = 2⁻⁵³ (2⁻²⁴):
 //!
-//! - *Interpolation*: 1.004 (π/N)³/6. The nearest node may be missed by the rounding of x N/2π, which is 2u|k|: 5·10⁻⁴ of a step in f32, where
-//!   |k| ≤ 2¹², 2.4·10⁻¹⁰ in f64, where |k| ≤ 2²⁰; three times twice that in the cube.
-//! - *Entries*: 2u each as the generator computes them, from an angle below π/4 that is rounded and a sine within 1 ulp.
-//! - *Evaluation*: 1 − δ²/2 is off by u, its product with the entry by u/2, the other product and δ by 2u|δ| ≤ 0.8u, the sum by u at most;
-//!   the reduction of f32 by 2.5·10⁻⁹·4/N, below 0.03u. With the entries, times 1 + |δ|, all that is below 8u.
+//! - *Interpolation*: 1.004 (π/N)³/6. The nearest node may be missed by the rounding of x N/2π, which is 2u|k|:
+//!   5·10⁻⁴ of a step in f32, where |k| ≤ 2¹², 2.4·10⁻¹⁰ in f64, where |k| ≤ 2²⁰; three times twice that in the cube.
+//! - *Entries*: 2u each as the generator computes them, from an angle below π/4 that is rounded and a sine within 1
+//!   ulp.
+//! - *Evaluation*: 1 − δ²/2 is off by u, its product with the entry by u/2, the other product and δ by 2u|δ| ≤ 0.8u,
+//!   the sum by u at most; the reduction of f32 by 2.5·10⁻⁹·4/N, below 0.03u. With the entries, times 1 + |δ|, all
+//!   that is below 8u.
 
 use super::Trig;
 use super::reduction::Reduction;
