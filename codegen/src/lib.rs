@@ -46,6 +46,7 @@ pub mod reduction;
 pub mod report;
 pub mod reproduce;
 pub mod simulate;
+pub mod sines;
 pub mod spec;
 pub mod spread;
 

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use crate::arm::{Arm, Built, Uncertainty, indefinite, indefinite_among};
+use crate::arm::{Arm, Built, JointKind, Uncertainty, indefinite, indefinite_among};
 use crate::body::{self, Form, Regressor};
-use crate::bounds::{Bounds, Certificate, Effort, certified};
+use crate::bounds::{Bounds, Certificate, Effort, certified, reach, recursion, with_sines};
 use crate::check::{examine, vector};
 use crate::design::{Design, Problem, checked, design};
 use crate::dynamics::mass_matrix;
@@ -16,6 +16,7 @@ use crate::load::{Loaded, load, spec_hash};
 use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::reduction::{self, Reduced, Regression};
+use crate::sines::Sines;
 use crate::spec::{LawSpec, MeasureSpec, ModelSpec, RefitSpec, Spec};
 
 /// Half-width of the tube where the specification names no measure, rad or m.
@@ -99,9 +100,14 @@ impl Generation {
         }
         let lagrangian = expand_family(&arm, &uncertainty);
         check_count(spec, &lagrangian, &mut faults);
-        faults.finish(())?;
+        if !faults.is_empty() {
+            return Err(faults.into_error());
+        }
 
         let domain = domain(spec, &arm)?;
+        let sines = Sines::new(&spec.emit.trig);
+        check_angles(&sines, &reach(&domain, motion.as_ref()), &arm, &mut faults);
+        faults.finish(())?;
         let measure = Measure::new(&domain, motion.as_ref(), &arm);
         let refused = |report: &dyn Fn(&mut Faults)| {
             let mut faults = Faults::of(&loaded.path);
@@ -145,25 +151,37 @@ impl Generation {
             Some((regression, reestimated)) => (Some(regression), reestimated),
             None => (None, reduced),
         };
-        let certificates = certified(&lagrangian, &reduced, &domain, motion.as_ref(), effort);
-        let deltas: Vec<f64> = certificates.iter().map(|certificate| certificate.bound).collect();
-        let mut bounds = Bounds::new(&lagrangian, &deltas);
+        let (exact_form, exact_code) = body::exact(&arm, &lagrangian);
+        let (form, mut code) = match spec.model {
+            ModelSpec::Exact => (exact_form, exact_code.clone()),
+            ModelSpec::Shared { .. } => (Form::Expanded, body::expanded(&arm, &lagrangian, &reduced)),
+        };
+        let (certificates, mut bounds) = if form == Form::Recursive && !sines.rounds() {
+            // What coarse sines do is known of the plain recursion alone.
+            code = body::plain(&arm);
+            recursive_bounds(&arm, &lagrangian, &reduced, &domain, motion.as_ref(), effort, &sines)
+        } else {
+            let certificates = certified(&lagrangian, &reduced, &domain, motion.as_ref(), effort);
+            let certificates =
+                with_sines(certificates, &lagrangian, &reduced, &domain, motion.as_ref(), &sines);
+            let bounds = Bounds::of(&lagrangian, &certificates);
+            (certificates, bounds)
+        };
         if !uncertainty.viscous.is_empty() {
             bounds.b.clone_from(&uncertainty.viscous);
         }
+        let mut regressor =
+            regression.as_ref().map(|regression| body::regressor(&arm, &lagrangian, regression, form));
+        if let Some(regressor) = &mut regressor {
+            regressor.code.sines = sines.clone();
+        }
+        code.sines = sines;
         if !(reduced.is_finite() && bounds.is_finite()) {
             let mend = "write positions, speeds and the measure in SI units";
             return refused(&|faults| {
                 faults.push("measure", "reaches states at which the model overflows", mend)
             });
         }
-        let (exact_form, exact_code) = body::exact(&arm, &lagrangian);
-        let (form, code) = match spec.model {
-            ModelSpec::Exact => (exact_form, exact_code.clone()),
-            ModelSpec::Shared { .. } => (Form::Expanded, body::expanded(&arm, &lagrangian, &reduced)),
-        };
-        let regressor =
-            regression.as_ref().map(|regression| body::regressor(&arm, &lagrangian, regression, form));
         let design = spec
             .control
             .as_ref()
@@ -230,6 +248,31 @@ impl Generation {
     }
 }
 
+/// Bounds on the plain recursion with sines off by more than rounding: what they do to it, and what uncertain parameters
+/// do.
+fn recursive_bounds(
+    arm: &Arm,
+    lagrangian: &Lagrangian,
+    reduced: &Reduced,
+    domain: &Domain,
+    motion: Option<&Motion>,
+    effort: &Effort,
+    sines: &Sines,
+) -> (Vec<Certificate>, Bounds) {
+    // Only what a law learns is in expanded form.
+    let learnt = Reduced { combinations: vec![Vec::new(); reduced.combinations.len()], ..reduced.clone() };
+    let certificates = certified(lagrangian, reduced, domain, motion, effort);
+    let certificates = with_sines(certificates, lagrangian, &learnt, domain, motion, sines);
+    let own = recursion(arm, &reach(domain, motion), sines.error);
+    let bounds = Bounds::of(lagrangian, &certificates).plus(&own);
+    let add = |(mut certificate, more): (Certificate, Certificate)| {
+        certificate.bound = (certificate.bound + more.bound).next_up();
+        certificate.sines = (certificate.sines + more.bound).next_up();
+        certificate
+    };
+    (certificates.into_iter().zip(own.certificates(lagrangian)).map(add).collect(), bounds)
+}
+
 fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Faults) {
     let p = lagrangian.functions.len();
     match spec.model {
@@ -239,6 +282,18 @@ fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Faults) {
             format!("write a number from 1 to {p}, or `\"exact\"`"),
         ),
         ModelSpec::Shared { .. } | ModelSpec::Exact => {}
+    }
+}
+
+/// Faults where the domain holds angles for which the sines chosen promise nothing.
+fn check_angles(sines: &Sines, reach: &[f64], arm: &Arm, faults: &mut Faults) {
+    let turning = arm.joints.iter().zip(reach).filter(|(joint, _)| joint.kind == JointKind::Revolute);
+    for (joint, most) in turning.filter(|(_, most)| **most > sines.range) {
+        faults.push(
+            "emit.trig",
+            format!("takes angles up to {:.1} rad, and {} may reach {most:.1} rad", sines.range, joint.name),
+            "write \"libm\", or correct the motion or the limits",
+        );
     }
 }
 

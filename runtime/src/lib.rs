@@ -1,6 +1,7 @@
 //! The `no_std` half of Gramforge: models, tracking laws, the fixed-step controller and a simulator.
 //!
-//! No allocation, no unsafe code, no panic on any number; `libm` for every transcendental, so that all machines agree.
+//! No allocation, no unsafe code, no panic on any number; `libm` for every transcendental, so that all machines agree;
+//! generated models may take their sines faster, from [`trig`].
 //! Everything is generic over the scalar ([`Real`]: `f64` or `f32`) and over the number of joints.
 //!
 //! A generated module supplies a [`Model`] and the constants. The rest of a firmware's loop is this:
@@ -75,6 +76,7 @@ mod regression;
 pub mod simulate;
 #[cfg(test)]
 mod test_arm;
+pub mod trig;
 mod vector;
 
 pub use controller::{Command, Controller, OnFault, Settings};

@@ -12,8 +12,8 @@ mod uncertainty;
 mod urdf;
 mod validate;
 
-pub(crate) use base_parameters::{Along, Mass};
 pub use crate::spec::JointKind;
+pub(crate) use base_parameters::{Along, Mass};
 pub use definite::{Indefinite, indefinite, indefinite_among};
 pub(crate) use frames::Origin;
 pub use transform::Transform;

@@ -2,12 +2,14 @@
 
 mod expanded;
 mod harmonics;
+mod plain;
 mod recursive;
 mod regressor;
 #[cfg(test)]
 mod tests;
 
 pub use expanded::expanded;
+pub use plain::plain;
 pub use recursive::recursive;
 pub use regressor::{Regressor, regressor};
 

@@ -11,9 +11,11 @@ mod envelope;
 mod estimate;
 mod expansion;
 mod polynomial;
+mod recursion;
 mod region;
 mod residual;
 mod rounding;
+mod sines;
 mod taylor;
 mod tensors;
 #[cfg(test)]
@@ -21,16 +23,19 @@ mod tests;
 mod torque;
 
 pub use estimate::estimate;
+pub use recursion::recursion;
+pub use region::reach;
+pub use sines::with_sines;
 pub use torque::{Rates, peak_torque, torque_error};
 
 use rayon::prelude::*;
 
-use crate::lagrangian::{Combination, Entry, Lagrangian};
+use crate::lagrangian::{Coefficient, Combination, Entry, Lagrangian};
 use crate::measure::Domain;
 use crate::motion::Motion;
 use crate::reduction::{Reduced, plus};
 use polynomial::Polynomial;
-use region::{Region, reach};
+use region::Region;
 use residual::Residual;
 
 /// A residual below this fraction of its coefficient's Σ|k_l| need not be bounded more sharply than by half.
@@ -76,12 +81,14 @@ pub struct Certificate {
     pub parameters: Vec<f64>,
     /// Boxes that branch and bound enclosed.
     pub boxes: usize,
+    /// The part of the bound that stands for sines and cosines off by more than an ulp.
+    pub sines: f64,
 }
 
 impl Certificate {
-    /// bound/found; 1 for an exact coefficient.
+    /// bound/found; 1 for a coefficient that is not simplified.
     pub fn ratio(&self) -> f64 {
-        if self.bound == 0.0 { 1.0 } else { self.bound / self.found }
+        if self.boxes == 0 || self.bound == 0.0 { 1.0 } else { self.bound / self.found }
     }
 }
 
@@ -111,7 +118,8 @@ pub fn certified(
             let region = Region::new(domain, motion, &residuals[proof.residual].polynomial.joints);
             let (time, witness) = region.position(lagrangian.dof, &proof.found.x);
             let parameters = vertex(&active(lagrangian, reduced, m), lagrangian, proof.residual);
-            Certificate { bound, found: proof.found.height, witness, time, parameters, boxes: proof.boxes }
+            let (found, boxes) = (proof.found.height, proof.boxes);
+            Certificate { bound, found, witness, time, parameters, boxes, sines: 0.0 }
         })
         .collect()
 }
@@ -215,6 +223,45 @@ impl Bounds {
             }
         }
         out
+    }
+
+    /// Those of the certificates; ΔB = 0.
+    pub fn of(lagrangian: &Lagrangian, certificates: &[Certificate]) -> Self {
+        let deltas: Vec<f64> = certificates.iter().map(|certificate| certificate.bound).collect();
+        Self::new(lagrangian, &deltas)
+    }
+
+    /// Entry by entry the sum, rounded up.
+    #[must_use]
+    pub fn plus(mut self, other: &Self) -> Self {
+        let add =
+            |own: &mut f64, more: &f64| *own = if *more == 0.0 { *own } else { (*own + more).next_up() };
+        let own = self.d.iter_mut().chain(self.h.iter_mut().flatten()).chain([&mut self.b, &mut self.g]);
+        let more = other.d.iter().chain(other.h.iter().flatten()).chain([&other.b, &other.g]);
+        own.zip(more).for_each(|(own, more)| own.iter_mut().zip(more).for_each(|(own, more)| add(own, more)));
+        self
+    }
+
+    /// For each coefficient the largest bound of its places, nothing searched.
+    pub fn certificates(&self, lagrangian: &Lagrangian) -> Vec<Certificate> {
+        let at = |entry: Entry| match entry {
+            Entry::D(i, j) => self.d[i][j].max(self.d[j][i]),
+            Entry::H(i, j, k) => self.h[i][j][k],
+            Entry::G(i) => self.g[i],
+        };
+        let largest =
+            |c: &Coefficient| c.places.iter().fold(0.0, |most: f64, place| most.max(at(place.entry)));
+        let certificate = |bound: f64| Certificate { bound, sines: bound, ..Certificate::default() };
+        lagrangian.coefficients.iter().map(|c| certificate(largest(c))).collect()
+    }
+
+    /// Bound on |δD a_r + δC v_r + δG| by joint, N·m or N, for rates up to `rates`: every entry at its largest.
+    pub fn torque(&self, rates: &Rates) -> Vec<f64> {
+        let (a, v, w) = (&rates.reference_acceleration, &rates.speed, &rates.reference_speed);
+        let sum = |row: &[f64], x: &[f64]| row.iter().zip(x).map(|(e, x)| e * x).sum::<f64>();
+        let coriolis = |plane: &[Vec<f64>]| plane.iter().zip(w).map(|(row, w)| sum(row, v) * w).sum::<f64>();
+        let torque = |i: usize| sum(&self.d[i], a) + coriolis(&self.h[i]) + self.g[i];
+        (0..self.g.len()).map(|i| torque(i) * (1.0 + rounding::gamma(1024.0))).collect()
     }
 
     /// Equation (30): ΔC_ij = Σ_k Δh_ijk max|q̇_k|, with the largest speeds given.

@@ -51,7 +51,7 @@ pub fn published(lagrangian: &Lagrangian, m: usize, reduced: &Reduced, reach: &[
 }
 
 /// sup|ψ_l|.
-fn monomial(lagrangian: &Lagrangian, l: usize, reach: &[f64]) -> f64 {
+pub fn monomial(lagrangian: &Lagrangian, l: usize, reach: &[f64]) -> f64 {
     let power = &lagrangian.functions[l].power;
     reach.iter().zip(power).fold(1.0, |p, (&q, &e)| (0..e).fold(p, |p, _| p * q))
 }

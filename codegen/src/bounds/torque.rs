@@ -90,6 +90,7 @@ pub fn torque_error(
             let mut extra = 0.0;
             let mut parts = Vec::new();
             for (m, vertices) in residuals.iter().enumerate() {
+                extra += multipliers[m] * certificates[m].sines;
                 if vertices.is_empty() || multipliers[m] <= 0.0 {
                     continue;
                 }

@@ -6,6 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{json, show_warnings};
+use crate::body::Form;
 use crate::bounds::{Bounds, Effort, Rates, estimate, peak_torque, torque_error};
 use crate::design::Envelope;
 use crate::emit::{domain_in_words, verdict};
@@ -274,6 +275,9 @@ fn torque(generation: &Generation) -> Option<Vec<f64>> {
         (Domain::Workspace(_), _) | (_, None) => Rates::limits(arm)?,
         (_, Some(motion)) => Rates::of(motion),
     };
+    if generation.form == Form::Recursive {
+        return Some(generation.bounds.torque(&rates));
+    }
     Some(torque_error(lagrangian, reduced, domain, motion, certificates, &rates))
 }
 
@@ -301,7 +305,8 @@ fn text(view: &Inspection, generation: &Generation) -> String {
     lines.push(format!("emitted ({}): {}", view.form, cost(&view.operations.reduced)));
     lines.push(format!("exact:   {}", cost(&view.operations.exact)));
     lines.push(format!("verdict: {}", view.verdict));
-    if !view.selected.is_empty() {
+    let bounded = !view.selected.is_empty() || !generation.code.sines.rounds();
+    if bounded {
         let largest = |values: &mut dyn Iterator<Item = &f64>| values.fold(0.0_f64, |a, &b| a.max(b));
         lines.push(format!(
             "bounds ({}) over {}: dD <= {}, dh <= {}, dG <= {}",
@@ -312,7 +317,7 @@ fn text(view: &Inspection, generation: &Generation) -> String {
             up(largest(&mut view.bounds.G.iter())),
         ));
     }
-    if let Some(torque) = view.torque_error.as_ref().filter(|_| !view.selected.is_empty()) {
+    if let Some(torque) = view.torque_error.as_ref().filter(|_| bounded) {
         let peak = view.peak_torque.as_ref().map_or(String::new(), |peak| format!(" of {}", list(peak)));
         lines.push(format!("torque error (certified) <= {}{peak}", list(torque)));
     }

@@ -5,6 +5,7 @@ mod controller;
 mod docs;
 mod literal;
 mod regression;
+mod sines;
 mod statements;
 
 pub(crate) use docs::{domain as domain_in_words, verdict};
@@ -70,6 +71,7 @@ pub fn emit(module: &Module) -> Result<String, Error> {
     let regression = regression::regression(module, &model)?;
     let learnt = regression::constants(module)?;
     let body = statements::body(module.code)?;
+    let table = sines::table(&module.code.sines)?;
     let tokens = quote! {
         #(#[doc = #docs])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -77,6 +79,8 @@ pub fn emit(module: &Module) -> Result<String, Error> {
 
         #constants
         #learnt
+
+        #table
 
         impl ::gramforge_runtime::Model<#n> for #model {
             type Scalar = f64;

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{literal, spaced};
+use super::{literal, sines, spaced};
 use crate::error::Error;
 use crate::graph::{Graph, Node, NodeId, Variable};
 
@@ -104,7 +104,8 @@ fn trigonometry(graph: &Graph, names: &mut Names) -> Vec<TokenStream> {
                 if used { quote!(#ident) } else { quote!(_) }
             };
             let (sin, cos, j) = (part(sin, "sin"), part(cos, "cos"), literal::count(j));
-            quote!(let (#sin, #cos) = ::gramforge_runtime::Real::sin_cos(q[#j]);)
+            let call = sines::call(&graph.sines, quote!(q[#j]));
+            quote!(let (#sin, #cos) = #call;)
         })
         .collect()
 }
