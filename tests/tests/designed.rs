@@ -27,18 +27,7 @@ fn ask(
 }
 
 fn run(generation: &Generation) -> Comparison {
-    let spec = &generation.loaded.spec;
-    simulate(&Scenario {
-        file: Path::new("arm.json"),
-        arm: &generation.arm,
-        motion: generation.motion.as_ref().unwrap(),
-        design: generation.design.as_ref().unwrap(),
-        code: &generation.code,
-        bounds: &generation.bounds,
-        initial: &spec.control.as_ref().unwrap().initial_error,
-        simulation: &spec.simulation,
-    })
-    .unwrap()
+    simulate(&Scenario::of(generation).unwrap()).unwrap()
 }
 
 /// Asserts that the guarantee holds, that no error leaves `tube`, and that after `time` all are below 1/20 of `error`.

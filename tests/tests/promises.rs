@@ -25,18 +25,7 @@ fn arm3(edit: impl Fn(&mut Value)) -> Generation {
 }
 
 fn run(generation: &Generation) -> Run {
-    let spec = &generation.loaded.spec;
-    let scenario = Scenario {
-        file: Path::new("arm.json"),
-        arm: &generation.arm,
-        motion: generation.motion.as_ref().unwrap(),
-        design: generation.design.as_ref().unwrap(),
-        code: &generation.code,
-        bounds: &generation.bounds,
-        initial: &spec.control.as_ref().unwrap().initial_error,
-        simulation: &spec.simulation,
-    };
-    simulate(&scenario).unwrap().law
+    simulate(&Scenario::of(generation).unwrap()).unwrap().law
 }
 
 /// Largest |q_e| of a joint over a run, from instant `from` of its trace on.
