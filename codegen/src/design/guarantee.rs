@@ -62,6 +62,8 @@ pub(super) struct Parts<'a> {
     /// Initial position and velocity error.
     pub(super) initial: [Vec<f64>; 2],
     pub(super) delta_c1: Option<&'a [Vec<f64>]>,
+    /// The bounds on D, where the same gains were judged before.
+    pub(super) facts: Option<&'a InertiaBounds>,
     /// Pass over final error, largest initial error and smallest tube, which a comparison of gains does not need.
     pub(super) sketch: bool,
 }
@@ -89,7 +91,10 @@ impl Parts<'_> {
         let about = |width: &[f64]| Inertia::new(arm, lagrangian, &reach(&cells(domain, motion, width), n));
         let wide: Vec<f64> = own.iter().zip(&self.initial[0]).map(|(a, b)| a.max(*b).max(1.0)).collect();
         let inertia = about(&wide);
-        let facts = inertia_bounds(&inertia, over.clone(), self.gains, &self.form);
+        let facts = match self.facts {
+            Some(facts) => facts.clone(),
+            None => inertia_bounds(&inertia, over.clone(), self.gains, &self.form),
+        };
         let [position, velocity] = &self.initial;
         let level = |position: &[f64]| {
             let cell = start(domain, motion, position);
