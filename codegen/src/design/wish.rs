@@ -33,7 +33,7 @@ pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
     let mut hopeless = outside(domain, motion, arm, &vec![0.0; n]);
     hopeless.extend(motion.map_or(Vec::new(), |motion| guarantee::beyond_torque_limits(arm, motion)));
     let closed = (1..).zip(&own).filter(|(_, room)| **room <= 0.0);
-    hopeless.extend(closed.map(|(number, _)| format!("the motion takes joint {number} to its limits")));
+    hopeless.extend(closed.map(|(number, _)| format!("joint {number} has no room for errors")));
     if !scene.certified {
         hopeless.push("the bounds on D over the domain cannot be certified".to_string());
     }
