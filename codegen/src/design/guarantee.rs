@@ -63,6 +63,8 @@ pub(super) struct Parts<'a> {
     pub(super) initial: [Vec<f64>; 2],
     pub(super) adaptation: Option<&'a Adaptation>,
     pub(super) delta_c1: Option<&'a [Vec<f64>]>,
+    /// The bounds on D, where the same gains were judged before.
+    pub(super) facts: Option<&'a InertiaBounds>,
     /// Pass over final error, largest initial error and smallest tube, which a comparison of gains does not need.
     pub(super) sketch: bool,
 }
@@ -90,7 +92,10 @@ impl Parts<'_> {
         let wide: Vec<f64> = own.iter().zip(&self.initial[0]).map(|(a, b)| a.max(*b).max(1.0)).collect();
         let reach = reach(&cells(domain, motion, &wide), n);
         let inertia = Inertia::of_family(arm, self.problem.uncertainty, lagrangian, &reach);
-        let facts = inertia_bounds(&inertia, over.clone(), self.gains, &self.form);
+        let facts = match self.facts {
+            Some(facts) => facts.clone(),
+            None => inertia_bounds(&inertia, over.clone(), self.gains, &self.form),
+        };
         let [position, velocity] = &self.initial;
         let level = |position: &[f64]| {
             let cell = start(domain, motion, position);

@@ -116,7 +116,7 @@ pub fn design(problem: &Problem) -> Result<Design, Error> {
     let coulomb = |joint: &crate::arm::Joint| {
         if control.compensate_coulomb { joint.coulomb_friction } else { [0.0; 2] }
     };
-    let (gains, judgement) = stage.judge(&tuning, false)?;
+    let (gains, judgement) = stage.judge(&tuning)?;
     let guarantee::Judgement { envelope, delta_c, k_star, delta_c1, guarantee, .. } = judgement;
     let design = Design {
         law: control.law,
@@ -176,9 +176,22 @@ impl<'a> Stage<'a> {
         })
     }
 
-    /// The gain matrices of `tuning` and what they promise; a `sketch` passes over what a comparison of gains
-    /// does not need.
-    fn judge(&self, tuning: &Tuning, sketch: bool) -> Result<(Gains, guarantee::Judgement), Error> {
+    /// The gain matrices of `tuning` and what they promise.
+    fn judge(&self, tuning: &Tuning) -> Result<(Gains, guarantee::Judgement), Error> {
+        self.judged(tuning, false, None)
+    }
+
+    /// As much of a judgement as a comparison of gains needs; `facts` are those of the same gains with another layer.
+    fn sketch(&self, tuning: &Tuning, facts: Option<&InertiaBounds>) -> Result<guarantee::Judgement, Error> {
+        self.judged(tuning, true, facts).map(|(_, judgement)| judgement)
+    }
+
+    fn judged(
+        &self,
+        tuning: &Tuning,
+        sketch: bool,
+        facts: Option<&InertiaBounds>,
+    ) -> Result<(Gains, guarantee::Judgement), Error> {
         let gains = Gains::new(tuning);
         let form = if gains.is_finite() { reach::Form::new(&gains) } else { None };
         let form = form.ok_or_else(|| {
@@ -194,6 +207,7 @@ impl<'a> Stage<'a> {
             initial: self.initial.clone(),
             delta_c1: self.delta_c1.as_deref(),
             adaptation: self.adaptation.as_ref(),
+            facts,
             sketch,
         }
         .judge()?;
