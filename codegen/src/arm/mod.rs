@@ -4,6 +4,7 @@ mod body;
 mod definite;
 mod dh;
 mod drive;
+mod intervals;
 mod place;
 mod transform;
 mod uncertainty;

@@ -8,6 +8,7 @@
 mod ascent;
 mod branch;
 mod estimate;
+mod factor;
 mod polynomial;
 mod region;
 mod residual;
@@ -18,7 +19,8 @@ mod tests;
 mod torque;
 
 pub use estimate::estimate;
-pub use torque::{Rates, peak_torque, torque_error};
+pub use factor::{factor, factor_bounds};
+pub use torque::{Rates, largest_torque, peak_torque, torque_error};
 
 use rayon::prelude::*;
 

@@ -13,6 +13,7 @@ use crate::load::{Loaded, load};
 use crate::motion::Motion;
 use crate::spec::{ModelSpec, Spec};
 
+pub(crate) use shape::has;
 pub use shape::{matrix, vector};
 
 /// A specification that passed every check that needs no dynamics.
