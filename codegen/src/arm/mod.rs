@@ -6,6 +6,7 @@ mod definite;
 mod dh;
 mod drive;
 mod frames;
+mod intervals;
 mod place;
 mod transform;
 mod uncertainty;

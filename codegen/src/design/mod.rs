@@ -2,6 +2,7 @@
 
 mod adaptation;
 mod family;
+mod feedforward;
 mod gains;
 mod guarantee;
 mod inertia;
@@ -28,7 +29,6 @@ pub use tuning::Tuning;
 use crate::arm::{Arm, Uncertainty};
 use crate::bounds::Bounds;
 use crate::check::{matrix, vector};
-use crate::dynamics::inverse_dynamics;
 use crate::error::{Error, Faults};
 use crate::lagrangian::Lagrangian;
 use crate::measure::Domain;
@@ -268,23 +268,6 @@ impl Design {
             );
         }
     }
-}
-
-/// Instants at which the feedforward torque is looked at.
-const INSTANTS: u32 = 400;
-
-/// The most by which the torque along the motion itself changes during one period, by joint: what a held torque lags.
-fn lag(arm: &Arm, motion: &Motion, period: f64) -> Vec<f64> {
-    let step = motion.duration() / f64::from(INSTANTS);
-    let torque = |k: u32| -> Vec<f64> {
-        let target = motion.at(step * f64::from(k));
-        let torque = inverse_dynamics(arm, &target.q, &target.qd, &target.qdd);
-        let friction = arm.joints.iter().zip(&target.qd).map(|(joint, qd)| joint.viscous_friction * qd);
-        torque.iter().zip(friction).map(|(torque, friction)| torque + friction).collect()
-    };
-    let torques: Vec<Vec<f64>> = (0..=INSTANTS).map(torque).collect();
-    let most = |i: usize| torques.windows(2).map(|pair| (pair[1][i] - pair[0][i]).abs()).fold(0.0, f64::max);
-    (0..arm.dof()).map(|i| most(i) * period / step).collect()
 }
 
 /// What the specification's check has left in order.

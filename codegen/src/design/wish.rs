@@ -1,8 +1,9 @@
 //! What a specification asks of the gains: gains that achieve it, or what stands in the way.
 
+use super::feedforward::beyond_torque_limits;
 use super::region::{outside, room, width};
 use super::search::{Candidate, Scene, Target};
-use super::{Stage, Tuning, checked, guarantee};
+use super::{Stage, Tuning, checked};
 use crate::check::vector;
 use crate::error::{Error, Faults};
 use crate::spec::{DesignSpec, VectorSpec};
@@ -20,7 +21,7 @@ const STALLED: f64 = 0.97;
 /// # Errors
 /// [`Error::Input`] with what cannot be met, and by how much.
 pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
-    let super::Problem { file, arm, domain, motion, .. } = *stage.problem;
+    let super::Problem { file, arm, domain, motion, uncertainty, .. } = *stage.problem;
     let n = arm.dof();
     let tube = |tube| checked("control.design.tube", vector(tube, n));
     let own = room(domain, motion, arm);
@@ -31,7 +32,7 @@ pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
     let mut faults = Faults::of(file);
     let scene = Scene::new(stage, &target);
     let mut hopeless = outside(domain, motion, arm, &vec![0.0; n]);
-    hopeless.extend(motion.map_or(Vec::new(), |motion| guarantee::beyond_torque_limits(arm, motion)));
+    hopeless.extend(motion.map_or(Vec::new(), |motion| beyond_torque_limits(arm, uncertainty, motion)));
     let closed = (1..).zip(&own).filter(|(_, room)| **room <= 0.0);
     hopeless.extend(closed.map(|(number, _)| format!("joint {number} has no room for errors")));
     if !scene.certified {
