@@ -11,8 +11,8 @@ mod transform;
 mod urdf;
 mod validate;
 
-pub(crate) use base_parameters::{Along, Mass};
 pub use crate::spec::JointKind;
+pub(crate) use base_parameters::{Along, Kept, Mass, Offset};
 pub use definite::{Indefinite, indefinite, indefinite_among};
 pub(crate) use frames::Origin;
 pub use transform::Transform;

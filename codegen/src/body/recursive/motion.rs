@@ -56,8 +56,10 @@ pub(super) struct Step<'g> {
     pub axes: [[f64; 3]; 3],
     /// Turn from the still to the own frame by the joint alone.
     pub own: Option<Turn<'g>>,
-    /// Origin in the parent's own frame, at q = 0 of a prismatic joint.
+    /// Origin in the parent's own frame, at q = 0 of a prismatic joint, in the unit of accelerations.
     pub origin: Vector<'g>,
+    /// The same in the unit of forces.
+    pub lever: Vector<'g>,
     pub q: Option<Expr<'g>>,
     pub qd: Expr<'g>,
     pub vr: Expr<'g>,
@@ -65,7 +67,12 @@ pub(super) struct Step<'g> {
 }
 
 /// Motion of the link that `step` joins to one that moves as `parent`.
-pub(super) fn advance<'g>(parent: &Motion<'g>, step: &Step<'g>, before: &Choice, choice: &Choice) -> Motion<'g> {
+pub(super) fn advance<'g>(
+    parent: &Motion<'g>,
+    step: &Step<'g>,
+    before: &Choice,
+    choice: &Choice,
+) -> Motion<'g> {
     let zero = step.qd.constant_like(0.0);
     let from = if choice.sum { &parent.still } else { &parent.turned };
     let axes = &step.axes;
