@@ -14,7 +14,7 @@ mod urdf;
 mod validate;
 
 pub use crate::spec::JointKind;
-pub(crate) use base_parameters::{Along, Mass};
+pub(crate) use base_parameters::{Along, Kept, Mass, Offset};
 pub use definite::{Indefinite, indefinite, indefinite_among};
 pub(crate) use frames::Origin;
 pub use transform::Transform;
