@@ -9,7 +9,7 @@
 ///
 /// One passivity torque: 36 multiplications, 22 additions, 2 sine-cosine pairs.
 ///
-/// The exact model costs 52 multiplications, 34 additions, 2 sine-cosine pairs: the reduced one saves 28 of 86 operations.
+/// The exact model costs 50 multiplications, 32 additions, 2 sine-cosine pairs: the reduced one saves 24 of 82 operations.
 ///
 /// Domain of the bounds: |q − q_d(t)| ≤ (0.2, 0.2, 0.2) around the desired trajectory. They are certified, rounding in f64 included; coefficients that are not simplified are exact but for rounding and for terms below 1e-12 of the largest, and count as zero.
 ///
@@ -171,13 +171,13 @@ impl ::gramforge_runtime::AdaptiveModel<3, 1> for Arm3Adaptive {
 pub const GUARANTEED: bool = false;
 
 /// Periods below this keep the sampled loop stable at every D of the domain, held still, s.
-pub const PERIOD_MAX: f64 = 0.0004607911949251093;
+pub const PERIOD_MAX: f64 = 0.0004607911949247352;
 
 /// What |q − q_d| ends below if [`GUARANTEED`], by joint, rad or m; means nothing otherwise.
 pub const FINAL_ERROR: [f64; 3] = [
-    1.1741386478094884,
-    0.6959896290453101,
-    1.280659145920633,
+    1.1741386478100755,
+    0.6959896290456582,
+    1.2806591459212735,
 ];
 
 /// Period, torque limits and fault policy.
@@ -196,14 +196,14 @@ pub const LAW: ::gramforge_runtime::AdaptiveLaw<f64, 3, 1> = ::gramforge_runtime
             pqq: [[0.25, 0.0, 0.0], [0.0, 0.25, 0.0], [0.0, 0.0, 0.25]],
         },
         delta_c: [
-            [6.133893369148429, 3.126132711316759, 4.011717233392417],
-            [3.126132711316759, 0.0, 0.0],
-            [4.011717233392417, 0.0, 0.0],
+            [6.133893369151368, 3.126132711318234, 4.01171723339431],
+            [3.126132711318234, 0.0, 0.0],
+            [4.01171723339431, 0.0, 0.0],
         ],
         coriolis_term: ::gramforge_runtime::CoriolisTerm::Matrix([
-            [9.006032713205483, 0.0, 0.0],
-            [0.0, 9.006032713205483, 0.0],
-            [0.0, 0.0, 9.006032713205483],
+            [9.006032713209766, 0.0, 0.0],
+            [0.0, 9.006032713209766, 0.0],
+            [0.0, 0.0, 9.006032713209766],
         ]),
         disturbance: [0.0, 0.0, 0.0],
         switching: ::gramforge_runtime::Switching::BoundaryLayer([0.1, 0.1, 0.1]),

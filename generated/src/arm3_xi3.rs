@@ -10,7 +10,7 @@
 ///
 /// One passivity torque: 49 multiplications, 31 additions, 2 sine-cosine pairs.
 ///
-/// The exact model costs 52 multiplications, 34 additions, 2 sine-cosine pairs: the reduced one saves 6 of 86 operations.
+/// The exact model costs 50 multiplications, 32 additions, 2 sine-cosine pairs: the reduced one saves 2 of 82 operations.
 ///
 /// Domain of the bounds: |q − q_d(t)| ≤ (0.2, 0.2, 0.2) around the desired trajectory. They are certified, rounding in f64 included; coefficients that are not simplified are exact but for rounding and for terms below 1e-12 of the largest, and count as zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
