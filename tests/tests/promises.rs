@@ -149,8 +149,8 @@ fn errors_end_inside_the_published_ones_while_the_arm_moves() {
 }
 
 #[test]
-fn a_stiff_spring_does_not_blow_up_the_final_error() {
-    // With V alone √(Σρφ/4λ_min(M)) pays for the soft spring: 0.9 rad.
+fn a_soft_spring_does_not_blow_up_the_final_error() {
+    // V alone charges the soft Pqq for all that the layer lets pass.
     let generation = arm3(|v| {
         let control = &mut v["control"];
         control["law"] = json!("tight");
@@ -160,7 +160,7 @@ fn a_stiff_spring_does_not_blow_up_the_final_error() {
     });
     let published = &generation.design.as_ref().unwrap().guarantee.final_error;
     println!("{published:?}");
-    assert!(published.iter().all(|e| *e < 0.2), "{published:?}");
+    assert!(published.iter().all(|e| *e < 0.03), "{published:?}");
 }
 
 fn safe(v: &mut Value) {
