@@ -144,7 +144,7 @@ fn a_nominal_value_at_which_contributions_cancel_defeats_the_factor() {
     });
     let Generation { lagrangian, reduced, .. } = &generation;
     let (ratios, exceeded) = table(&generation, &Effort::default());
-    assert!(exceeded > 0 && ratios[0] < 0.5, "{ratios:?}");
+    assert!(exceeded > 0 && ratios[0] < 0.95, "{ratios:?}");
     assert!((0..lagrangian.coefficients.len()).all(|m| at_vertices(lagrangian, reduced, m).len() <= 2));
 }
 
