@@ -204,8 +204,8 @@ fn the_rate_of_v_is_its_derivative() {
 #[test]
 #[ignore = "minutes in release mode"]
 fn v_falls_on_two_hundred_arms() {
-    robust(&arm3("report"), &adaptive::REFERENCE, 0.02, 200, 5.0);
-    learning(200, 5.0);
+    robust(&arm3("report"), &adaptive::REFERENCE, 0.02, 200, 1.5);
+    learning(200, 1.5);
 }
 
 #[test]
@@ -216,5 +216,5 @@ fn v_falls_on_pumas_with_payloads() {
         v["control"]["uncertainty"] = json!({ "payload": { "mass": [0.5, 1.5] }, "viscous_friction": [[5.0, 6.5], null, null, null, null, null] });
         v["control"]["allow_long_period"] = json!(true);
     });
-    robust(&puma.unwrap_or_else(|message| panic!("{message}")), &puma560_xi6::REFERENCE, 0.02, 10, 0.5);
+    robust(&puma.unwrap_or_else(|message| panic!("{message}")), &puma560_xi6::REFERENCE, 0.02, 200, 0.5);
 }
