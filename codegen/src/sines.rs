@@ -1,6 +1,6 @@
 //! How the generated code takes sines and cosines, and the same in the generator: equal bits, known error.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::fmt;
 use std::sync::Arc;
 
@@ -171,7 +171,11 @@ fn node(k: usize, n: usize) -> (f64, f64) {
     let (quadrant, within) = (k / (n / 4), k % (n / 4));
     let mirrored = within > n / 8;
     let step = if mirrored { n / 4 - within } else { within };
-    let (s, c) = libm::sincos(2.0 * PI * step as f64 / n as f64);
+    // Rounded angles are not symmetric about an eighth of a turn; 1/√2 is.
+    let (s, c) = match 8 * step == n {
+        true => (FRAC_1_SQRT_2, FRAC_1_SQRT_2),
+        false => libm::sincos(2.0 * PI * step as f64 / n as f64),
+    };
     let (s, c) = if mirrored { (c, s) } else { (s, c) };
     // + 0.0: no entry is −0.
     let (sin, cos) = match quadrant % 4 {

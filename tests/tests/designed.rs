@@ -90,8 +90,14 @@ fn the_three_link_arm_gets_gains_that_hold() {
 #[test]
 fn the_puma_gets_gains_that_hold_and_its_wrist_gets_less() {
     let wish = json!({ "convergence_time": 1.0, "period": 0.001 });
-    let still = |v: &mut Value| v["simulation"] = json!({ "duration": 1.2, "substeps": 2 });
-    let generation = ask(PUMA, "tight", wish, 0.02, still).unwrap();
+    let smooth = |v: &mut Value| {
+        v["simulation"] = json!({ "duration": 1.2, "substeps": 2 });
+        // Coulomb friction inside the layer keeps a joint where it is: what is left then is `final_error`'s matter.
+        for link in v["arm"]["dh"]["links"].as_array_mut().unwrap() {
+            link["motor"].as_object_mut().unwrap().remove("coulomb_friction");
+        }
+    };
+    let generation = ask(PUMA, "tight", wish, 0.02, smooth).unwrap();
     let design = generation.design.as_ref().unwrap();
     show(design);
     judge("tight", &generation, 0.1, 1.0, 0.02);

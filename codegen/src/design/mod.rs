@@ -11,6 +11,7 @@ mod reach;
 mod region;
 mod rest;
 mod search;
+mod settling;
 #[cfg(test)]
 mod tests;
 mod tuning;

@@ -69,8 +69,8 @@ pub(super) struct Candidate {
 
 /// The arm as the search sees it.
 pub(super) struct Scene<'a> {
-    stage: &'a Stage<'a>,
-    target: &'a Target,
+    pub(super) stage: &'a Stage<'a>,
+    pub(super) target: &'a Target,
     /// Largest (D⁻¹)_ii and d_ii over the domain.
     mobility: Vec<f64>,
     heaviest: Vec<f64>,
@@ -99,9 +99,15 @@ impl<'a> Scene<'a> {
         Self { stage, target, mobility, heaviest, coupling, certified }
     }
 
-    /// Gains for `period` that hold, or those that come nearest; `None` where none are fast enough. In haste the search
-    /// ends where it begins far off.
-    pub(super) fn find(&self, period: f64, hasty: bool) -> Result<Option<Candidate>, Error> {
+    /// The same arm before another target.
+    pub(super) fn for_target<'b>(&'b self, target: &'b Target) -> Scene<'b> {
+        let (mobility, heaviest) = (self.mobility.clone(), self.heaviest.clone());
+        Scene { target, mobility, heaviest, ..*self }
+    }
+
+    /// Gains for `period` that hold and with which each joint by itself is fast enough, or those that come nearest;
+    /// `None` where none are fast enough. In haste the search ends where it begins far off.
+    pub(super) fn find_each(&self, period: f64, hasty: bool) -> Result<Option<Candidate>, Error> {
         let Some((mix, firmest)) = self.firmest(period, hasty)? else { return Ok(None) };
         if !firmest.holds {
             return Ok(Some(firmest));
@@ -258,8 +264,7 @@ impl<'a> Scene<'a> {
         let none = vec![0.0; self.mobility.len()];
         (1..200).map(|k| self.target.time * power(STEP, k)).find(|&time| {
             let target = Target { time, room: self.target.room.clone() };
-            let (mobility, heaviest) = (self.mobility.clone(), self.heaviest.clone());
-            let scene = Scene { target: &target, mobility, heaviest, ..*self };
+            let scene = self.for_target(&target);
             STIFF.into_iter().any(|stiff| scene.tuning(period, 1.0, Mix { stiff, ..START }, &none).is_some())
         })
     }
