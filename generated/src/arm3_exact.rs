@@ -31,7 +31,7 @@ pub const TRIG_PAIRS: usize = 2;
 /// Diagonal of B, N·m·s/rad or N·s/m.
 pub const VISCOUS_FRICTION: [f64; 3] = [0.0, 0.0, 0.0];
 
-/// ΔD, Δh, ΔB and ΔG of the simplified coefficients, certified over the domain that the model's documentation names.
+/// ΔD, Δh, ΔB and ΔG, certified over the domain, and for all arms, that the model's documentation names.
 pub const BOUNDS: ::gramforge_runtime::Bounds<f64, 3> = ::gramforge_runtime::Bounds::ZERO;
 
 impl ::gramforge_runtime::Model<3> for Arm3Exact {

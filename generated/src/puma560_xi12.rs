@@ -66,7 +66,7 @@ pub const VISCOUS_FRICTION: [f64; 6] = [
     0.2158232532732,
 ];
 
-/// ΔD, Δh, ΔB and ΔG of the simplified coefficients, certified over the domain that the model's documentation names.
+/// ΔD, Δh, ΔB and ΔG, certified over the domain, and for all arms, that the model's documentation names.
 pub const BOUNDS: ::gramforge_runtime::Bounds<f64, 6> = ::gramforge_runtime::Bounds {
     d: [
         [

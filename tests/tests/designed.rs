@@ -41,8 +41,7 @@ fn judge(name: &str, generation: &Generation, tube: f64, time: f64, error: f64) 
         let trace = &run.trace;
         let most = trace.position_error.iter().flatten().fold(0.0_f64, |m, e| m.max(e.abs()));
         let late = |(_, e): &(&f64, &Vec<f64>)| e.iter().any(|e| e.abs() > 0.05 * error);
-        let last =
-            trace.time.iter().zip(&trace.position_error).filter(late).next_back().map_or(0.0, |(t, _)| *t);
+        let last = trace.time.iter().zip(&trace.position_error).rfind(late).map_or(0.0, |(t, _)| *t);
         println!("{name}, {kind} law: at most {most:.5} of {tube}, below 1/20 after {last:.3} of {time} s");
         assert!(most <= tube && last <= time, "{name}, {kind}");
     }
