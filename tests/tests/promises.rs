@@ -51,13 +51,13 @@ fn random_loop(case: usize) -> Generation {
     let w: Vec<f64> = (0..3).map(|_| gain(between(0.0, 1.0), 15.0, 90.0)).collect();
     let pqq = gain(between(0.0, 1.0), 0.2, 5.0);
     let pull = between(1.0, 5.0);
-    let bend = if case % 2 == 0 { [-1.5, -0.8] } else { [-0.15, 0.15] };
+    let bend = if case.is_multiple_of(2) { [-1.5, -0.8] } else { [-0.15, 0.15] };
     let elbow = between(bend[0], bend[1]);
     let from = [between(-1.0, 1.0), between(-0.5, 1.0), elbow];
     let to = [
         from[0] + between(-1.5, 1.5),
         from[1] + between(-0.8, 0.8),
-        elbow + between(-1.0, 1.0) * if case % 2 == 0 { 0.6 } else { 0.05 },
+        elbow + between(-1.0, 1.0) * if case.is_multiple_of(2) { 0.6 } else { 0.05 },
     ];
     let duration = between(3.0, 6.0);
     arm3(|v| {
