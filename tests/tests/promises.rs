@@ -43,7 +43,8 @@ fn lost(generation: &mut Generation, period: f64) -> bool {
     run.metrics.diverged_at.is_some() || (0..3).any(|i| largest(&run, i, 0) > TUBE)
 }
 
-/// A random arm-3 loop with the exact model: gains, motion, elbow bent or stretched.
+/// A random arm-3 loop with the exact model: gains, motion, elbow bent or stretched; away from the upright arm, in which
+/// joint 1 moves next to nothing and bears no period to speak of.
 fn random_loop(case: usize) -> Generation {
     let mut random = Random::new(1000 + case as u64);
     let mut between = |low: f64, high: f64| low + (high - low) * 0.5 * (1.0 + random.signed());
@@ -56,7 +57,7 @@ fn random_loop(case: usize) -> Generation {
     let from = [between(-1.0, 1.0), between(-0.5, 1.0), elbow];
     let to = [
         from[0] + between(-1.5, 1.5),
-        from[1] + between(-0.8, 0.8),
+        (from[1] + between(-0.8, 0.8)).clamp(-0.8, 1.0),
         elbow + between(-1.0, 1.0) * if case.is_multiple_of(2) { 0.6 } else { 0.05 },
     ];
     let duration = between(3.0, 6.0);

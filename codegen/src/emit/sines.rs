@@ -35,6 +35,7 @@ pub(super) fn table(sines: &Sines) -> Result<TokenStream, Error> {
     );
     Ok(quote! {
         #[doc = #doc]
+        #[allow(clippy::approx_constant)]
         pub static SINES: ::gramforge_runtime::trig::Table<f64, #n> = ::gramforge_runtime::trig::Table::new(#pairs);
     })
 }
