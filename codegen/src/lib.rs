@@ -44,7 +44,9 @@ pub mod output;
 pub mod pipeline;
 pub mod reduction;
 pub mod report;
+pub mod reproduce;
 pub mod simulate;
+pub mod sines;
 pub mod spec;
 pub mod spread;
 

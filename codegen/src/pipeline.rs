@@ -2,27 +2,31 @@
 
 use std::path::Path;
 
-use crate::arm::{Arm, Built, indefinite, indefinite_among};
-use crate::body::{self, Form};
-use crate::bounds::{Bounds, Certificate, Effort, certified};
+use crate::arm::{Arm, Built, JointKind, Uncertainty, indefinite, indefinite_among};
+use crate::body::{self, Form, Regressor};
+use crate::bounds::{Bounds, Certificate, Effort, certified, reach, recursion, with_sines};
 use crate::check::{examine, vector};
 use crate::design::{Design, Problem, checked, design};
 use crate::dynamics::mass_matrix;
 use crate::emit::{Module, emit};
 use crate::error::{Error, Faults};
 use crate::graph::Graph;
-use crate::lagrangian::{Lagrangian, expand};
+use crate::lagrangian::{Lagrangian, expand_family};
 use crate::load::{Loaded, load, spec_hash};
 use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
-use crate::reduction::{self, Reduced};
-use crate::spec::{MeasureSpec, ModelSpec, RefitSpec, Spec};
+use crate::reduction::{self, Reduced, Regression};
+use crate::sines::Sines;
+use crate::spec::{LawSpec, MeasureSpec, ModelSpec, RefitSpec, Spec};
 
 /// Half-width of the tube where the specification names no measure, rad or m.
-const DEFAULT_TUBE: f64 = 0.05;
+pub(crate) const DEFAULT_TUBE: f64 = 0.05;
 
 /// Positions of the domain at which D is looked at.
 const POSITIONS: usize = 512;
+
+/// The same for each vertex of the uncertain parameters' box.
+const VERTEX_POSITIONS: usize = 64;
 
 /// Everything that follows from one specification.
 ///
@@ -54,6 +58,12 @@ pub struct Generation {
     pub form: Form,
     /// The emitted passivity torque.
     pub code: Graph,
+    /// All arms that the controller must bear.
+    pub uncertainty: Uncertainty,
+    /// The parameters of a law that learns.
+    pub regression: Option<Regression>,
+    /// The torque as a function of them.
+    pub regressor: Option<Regressor>,
     /// The cheapest exact passivity torque.
     pub exact_code: Graph,
 }
@@ -82,17 +92,22 @@ impl Generation {
     pub fn with_effort(loaded: Loaded, effort: &Effort) -> Result<Self, Error> {
         let mut faults = Faults::of(&loaded.path);
         let (built, motion) = examine(&loaded, &mut faults);
-        let Some(Built { arm, warnings }) = built else { return Err(faults.into_error()) };
+        let Some(Built { arm, uncertainty, warnings }) = built else { return Err(faults.into_error()) };
         let spec = &loaded.spec;
         if let Some(state) = indefinite(&arm, |q| mass_matrix(&arm, q)) {
             state.report(&mut faults);
             return Err(faults.into_error());
         }
-        let lagrangian = expand(&arm);
+        let lagrangian = expand_family(&arm, &uncertainty);
         check_count(spec, &lagrangian, &mut faults);
-        faults.finish(())?;
+        if !faults.is_empty() {
+            return Err(faults.into_error());
+        }
 
         let domain = domain(spec, &arm)?;
+        let sines = Sines::new(&spec.emit.trig);
+        check_angles(&sines, &reach(&domain, motion.as_ref()), &arm, &mut faults);
+        faults.finish(())?;
         let measure = Measure::new(&domain, motion.as_ref(), &arm);
         let refused = |report: &dyn Fn(&mut Faults)| {
             let mut faults = Faults::of(&loaded.path);
@@ -105,32 +120,68 @@ impl Generation {
         if let Some(state) = indefinite_among(positions, |q| mass_matrix(&arm, q)) {
             return refused(&|faults| state.report(faults));
         }
+        let stride = measure.points.len().div_ceil(VERTEX_POSITIONS).max(1);
+        for u in uncertainty.vertices() {
+            let member = uncertainty.at(&arm, &u);
+            let positions = measure.points.iter().step_by(stride);
+            if let Some(state) = indefinite_among(positions, |q| mass_matrix(&member, q)) {
+                return refused(&|faults| state.report_member(&uncertainty, &u, faults));
+            }
+        }
         let reduced = match spec.model {
             ModelSpec::Exact => reduction::exact(&lagrangian),
             ModelSpec::Shared { functions } => reduction::shared(&lagrangian, &measure, functions),
         };
+        let learns = spec.control.as_ref().filter(|control| control.law == LawSpec::Adaptive);
+        let points = match spec.refit {
+            RefitSpec::Minimax => reduction::extremes(&measure, &domain, motion.as_ref()),
+            RefitSpec::LeastSquares => measure.points.clone(),
+        };
         let reduced = match spec.refit {
-            RefitSpec::Minimax => reduction::minimax(
-                &lagrangian,
-                reduced,
-                &reduction::extremes(&measure, &domain, motion.as_ref()),
-            ),
+            RefitSpec::Minimax => reduction::minimax(&lagrangian, reduced, &points),
             RefitSpec::LeastSquares => reduced,
         };
-        let certificates = certified(&lagrangian, &reduced, &domain, motion.as_ref(), effort);
-        let deltas: Vec<f64> = certificates.iter().map(|certificate| certificate.bound).collect();
-        let bounds = Bounds::new(&lagrangian, &deltas);
+        let regression = learns.map(|control| {
+            let kind = control.adaptation.clone().unwrap_or_default().parameters;
+            let reduced = reduction::reestimate(&lagrangian, reduced.clone(), &points, spec.refit);
+            let names: Vec<String> = uncertainty.parameters.iter().map(|p| p.name.clone()).collect();
+            (Regression::new(&lagrangian, &reduced, kind, &names), reduced)
+        });
+        let (regression, reduced) = match regression {
+            Some((regression, reestimated)) => (Some(regression), reestimated),
+            None => (None, reduced),
+        };
+        let (exact_form, exact_code) = body::exact(&arm, &lagrangian);
+        let (form, mut code) = match spec.model {
+            ModelSpec::Exact => (exact_form, exact_code.clone()),
+            ModelSpec::Shared { .. } => (Form::Expanded, body::expanded(&arm, &lagrangian, &reduced)),
+        };
+        let (certificates, mut bounds) = if form == Form::Recursive && !sines.rounds() {
+            // What coarse sines do is known of the plain recursion alone.
+            code = body::plain(&arm);
+            recursive_bounds(&arm, &lagrangian, &reduced, &domain, motion.as_ref(), effort, &sines)
+        } else {
+            let certificates = certified(&lagrangian, &reduced, &domain, motion.as_ref(), effort);
+            let certificates =
+                with_sines(certificates, &lagrangian, &reduced, &domain, motion.as_ref(), &sines);
+            let bounds = Bounds::of(&lagrangian, &certificates);
+            (certificates, bounds)
+        };
+        if !uncertainty.viscous.is_empty() {
+            bounds.b.clone_from(&uncertainty.viscous);
+        }
+        let mut regressor =
+            regression.as_ref().map(|regression| body::regressor(&arm, &lagrangian, regression, form));
+        if let Some(regressor) = &mut regressor {
+            regressor.code.sines = sines.clone();
+        }
+        code.sines = sines;
         if !(reduced.is_finite() && bounds.is_finite()) {
             let mend = "write positions, speeds and the measure in SI units";
             return refused(&|faults| {
                 faults.push("measure", "reaches states at which the model overflows", mend)
             });
         }
-        let (exact_form, exact_code) = body::exact(&arm, &lagrangian);
-        let (form, code) = match spec.model {
-            ModelSpec::Exact => (exact_form, exact_code.clone()),
-            ModelSpec::Shared { .. } => (Form::Expanded, body::expanded(&arm, &lagrangian, &reduced)),
-        };
         let design = spec
             .control
             .as_ref()
@@ -143,6 +194,8 @@ impl Generation {
                     bounds: &bounds,
                     domain: &domain,
                     motion: motion.as_ref(),
+                    uncertainty: &uncertainty,
+                    regression: regression.as_ref(),
                     seek_tube: effort.seek_tube,
                 })
             })
@@ -162,6 +215,9 @@ impl Generation {
             certificates,
             bounds,
             design,
+            uncertainty,
+            regression,
+            regressor,
             form,
             code,
             exact_code,
@@ -184,11 +240,37 @@ impl Generation {
             domain: &self.domain,
             form: self.form,
             code: &self.code,
+            regressor: self.regressor.as_ref(),
             exact_code: &self.exact_code,
             motion: self.motion.as_ref(),
             design: self.design.as_ref(),
         })
     }
+}
+
+/// Bounds on the plain recursion with sines off by more than rounding: what they do to it, and what uncertain parameters
+/// do.
+fn recursive_bounds(
+    arm: &Arm,
+    lagrangian: &Lagrangian,
+    reduced: &Reduced,
+    domain: &Domain,
+    motion: Option<&Motion>,
+    effort: &Effort,
+    sines: &Sines,
+) -> (Vec<Certificate>, Bounds) {
+    // Only what a law learns is in expanded form.
+    let learnt = Reduced { combinations: vec![Vec::new(); reduced.combinations.len()], ..reduced.clone() };
+    let certificates = certified(lagrangian, reduced, domain, motion, effort);
+    let certificates = with_sines(certificates, lagrangian, &learnt, domain, motion, sines);
+    let own = recursion(arm, &reach(domain, motion), sines.error);
+    let bounds = Bounds::of(lagrangian, &certificates).plus(&own);
+    let add = |(mut certificate, more): (Certificate, Certificate)| {
+        certificate.bound = (certificate.bound + more.bound).next_up();
+        certificate.sines = (certificate.sines + more.bound).next_up();
+        certificate
+    };
+    (certificates.into_iter().zip(own.certificates(lagrangian)).map(add).collect(), bounds)
 }
 
 fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Faults) {
@@ -200,6 +282,18 @@ fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Faults) {
             format!("write a number from 1 to {p}, or `\"exact\"`"),
         ),
         ModelSpec::Shared { .. } | ModelSpec::Exact => {}
+    }
+}
+
+/// Faults where the domain holds angles for which the sines chosen promise nothing.
+fn check_angles(sines: &Sines, reach: &[f64], arm: &Arm, faults: &mut Faults) {
+    let turning = arm.joints.iter().zip(reach).filter(|(joint, _)| joint.kind == JointKind::Revolute);
+    for (joint, most) in turning.filter(|(_, most)| **most > sines.range) {
+        faults.push(
+            "emit.trig",
+            format!("takes angles up to {:.1} rad, and {} may reach {most:.1} rad", sines.range, joint.name),
+            "write \"libm\", or correct the motion or the limits",
+        );
     }
 }
 

@@ -3,10 +3,17 @@
 //! Types only; [`crate::load`] reads and checks a file, the stages give the fields their meaning.
 //! Units are SI throughout: m, kg, s, rad, N·m (N and m for prismatic joints).
 
+mod uncertainty;
+
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+pub use uncertainty::{
+    AdaptationSpec, LinkUncertaintySpec, ParametersSpec, PayloadUncertaintySpec, SymmetricIntervalsSpec,
+    UncertaintySpec,
+};
 
 /// A whole specification file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -342,23 +349,32 @@ pub enum DictionarySpec {
     Harmonic,
 }
 
-/// The tracking law and its numbers.
+/// The tracking law and its numbers: those of the gains are given, or `design` asks for them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "if" = { "not": { "required": ["design"] } },
+    "then" = { "required": ["period", "W", "Pqq", "Omega"] }
+))]
 pub struct ControlSpec {
     /// Which law.
     pub law: LawSpec,
+    /// Asks for period, gains and boundary layer instead of giving them: excludes `period`, `W`, `Pqq`, `Omega` and
+    /// `boundary_layer`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub design: Option<DesignSpec>,
     /// Control period, s.
-    pub period: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub period: Option<f64>,
     /// W of equation (16): symmetric positive definite, N·m·s/rad.
-    #[serde(rename = "W")]
-    pub w: MatrixSpec,
+    #[serde(rename = "W", default, skip_serializing_if = "Option::is_none")]
+    pub w: Option<MatrixSpec>,
     /// Pqq of equation (12): symmetric positive definite, N·m/rad.
-    #[serde(rename = "Pqq")]
-    pub pqq: MatrixSpec,
+    #[serde(rename = "Pqq", default, skip_serializing_if = "Option::is_none")]
+    pub pqq: Option<MatrixSpec>,
     /// Ω of equation (16): symmetric positive definite; P12 = Pqq⁻¹Ω must be symmetric and element-wise nonnegative.
-    #[serde(rename = "Omega")]
-    pub omega: MatrixSpec,
+    #[serde(rename = "Omega", default, skip_serializing_if = "Option::is_none")]
+    pub omega: Option<MatrixSpec>,
     /// φ of the boundary layer, unit of s (rad/s or m/s); absent: the sign function.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub boundary_layer: Option<VectorSpec>,
@@ -371,6 +387,12 @@ pub struct ControlSpec {
     /// Largest initial error.
     #[serde(default)]
     pub initial_error: InitialErrorSpec,
+    /// What is known of the arm only to intervals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<UncertaintySpec>,
+    /// How law `adaptive` learns.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adaptation: Option<AdaptationSpec>,
     /// Take a period longer than the sampled loop admits; nothing is guaranteed then.
     #[serde(default)]
     pub allow_long_period: bool,
@@ -385,6 +407,21 @@ pub struct ControlSpec {
     pub on_fault: OnFaultSpec,
 }
 
+/// What the gains are to achieve; diagonal W, Pqq, Ω and the layer φ are chosen so that the guarantee holds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DesignSpec {
+    /// Time in which the position error of a joint that starts at rest falls to 1/20, s: of the joint by itself, with
+    /// the largest inertia it can have in the domain, under the exact model and outside the robust term.
+    pub convergence_time: f64,
+    /// What |q_e| must never leave, rad or m. Default: the tube of the measure, which it must not exceed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tube: Option<VectorSpec>,
+    /// Control period, s. Default: the longest of 10, 5, 2, 1, 0.5, 0.2 and 0.1 ms for which there are gains.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub period: Option<f64>,
+}
+
 /// Tracking laws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -395,6 +432,8 @@ pub enum LawSpec {
     Report,
     /// Equation (34) with the model's error bounded at the state at hand in place of its bracket, without ΔC1.
     Tight,
+    /// Equation (46): (34) with parameters that are learnt on the way, (49).
+    Adaptive,
 }
 
 /// The variants of equation (34).
@@ -468,12 +507,40 @@ pub enum MatrixSpec {
 }
 
 /// What the generated code looks like.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EmitSpec {
     /// Number type of the generated code.
     #[serde(default)]
     pub scalar: ScalarSpec,
+    /// How sines and cosines are taken.
+    #[serde(default, skip_serializing_if = "TrigSpec::is_default")]
+    pub trig: TrigSpec,
+}
+
+/// How the generated code takes sines and cosines; the error counts in the bounds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum TrigSpec {
+    /// The crate `libm`.
+    #[default]
+    Libm,
+    /// Polynomials, as good as rounding and faster.
+    Polynomial,
+    /// A table of one turn in the module, with second-order interpolation.
+    Table {
+        /// Largest error of a sine or cosine, 1e-10 to 0.1: the smallest table that keeps it is taken.
+        error: f64,
+    },
+    /// The platform's, with the feature `std` of `gramforge-runtime`: not the same bits on every machine.
+    Std,
+}
+
+impl TrigSpec {
+    /// True for what an absent field means.
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// Number type of the generated code.

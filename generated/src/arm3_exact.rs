@@ -99,9 +99,9 @@ pub const PERIOD_MAX: f64 = 0.01585958368918007;
 
 /// What |q − q_d| ends below if [`GUARANTEED`], by joint, rad or m; means nothing otherwise.
 pub const FINAL_ERROR: [f64; 3] = [
-    0.002550107378261921,
-    0.001664120244684249,
-    0.002901062593988324,
+    0.0016775808751064636,
+    0.0010947367629133029,
+    0.00190845576411712,
 ];
 
 /// Period, torque limits and fault policy.

@@ -113,9 +113,9 @@ pub const PERIOD_MAX: f64 = 0.01585958368918007;
 
 /// What |q − q_d| ends below if [`GUARANTEED`], by joint, rad or m; means nothing otherwise.
 pub const FINAL_ERROR: [f64; 3] = [
-    0.014703367975659045,
-    0.009594957656258802,
-    0.01672689989584005,
+    0.00704217287411343,
+    0.004595501564473636,
+    0.008011342769187257,
 ];
 
 /// Period, torque limits and fault policy.

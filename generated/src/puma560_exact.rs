@@ -4,7 +4,7 @@
 
 /// Exact model of `puma560_exact`, 6 joints, in recursive form.
 ///
-/// One passivity torque: 300 multiplications, 243 additions, 5 sine-cosine pairs.
+/// One passivity torque: 175 multiplications, 151 additions, 4 sine-cosine pairs.
 ///
 /// Nothing is left out but rounding and terms below 1e-12 of the largest, so the bounds are zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,13 +20,13 @@ pub const FUNCTIONS: usize = 0;
 pub const PSI: [&str; 0] = [];
 
 /// Multiplications in one passivity torque.
-pub const MULTIPLICATIONS: usize = 300;
+pub const MULTIPLICATIONS: usize = 175;
 
 /// Additions, subtractions and negations in one passivity torque.
-pub const ADDITIONS: usize = 243;
+pub const ADDITIONS: usize = 151;
 
 /// Joints whose sine and cosine one passivity torque takes.
-pub const TRIG_PAIRS: usize = 5;
+pub const TRIG_PAIRS: usize = 4;
 
 /// Diagonal of B, N·m·s/rad or N·s/m.
 pub const VISCOUS_FRICTION: [f64; 6] = [
@@ -54,192 +54,119 @@ impl ::gramforge_runtime::Model<6> for Puma560Exact {
         let (sin_q3, cos_q3) = ::gramforge_runtime::Real::sin_cos(q[2]);
         let (sin_q4, cos_q4) = ::gramforge_runtime::Real::sin_cos(q[3]);
         let (sin_q5, cos_q5) = ::gramforge_runtime::Real::sin_cos(q[4]);
-        let (sin_q6, cos_q6) = ::gramforge_runtime::Real::sin_cos(q[5]);
-        let t1 = 0.175 * a_r[0];
-        let w2_x = sin_q2 * qd[0];
-        let w2_y = cos_q2 * qd[0];
-        let wr2_x = sin_q2 * v_r[0];
-        let wr2_y = cos_q2 * v_r[0];
-        let a2_x = 9.81 * sin_q2;
-        let a2_y = 9.81 * cos_q2;
-        let t2 = 0.5 * (v_r[1] * w2_y + qd[1] * wr2_y);
-        let wd2_x = sin_q2 * a_r[0] + t2;
-        let t3 = 0.5 * (v_r[1] * w2_x + qd[1] * wr2_x);
-        let wd2_y = cos_q2 * a_r[0] - t3;
-        let t4 = w2_x * wr2_x;
-        let t5 = w2_y * wr2_y;
-        let t6 = qd[1] * v_r[1];
-        let t7 = 0.5 * (w2_x * wr2_y + w2_y * wr2_x);
-        let t8 = t5 + t6;
-        let t9 = t7 - a_r[1];
-        let t10 = t3 + wd2_y;
-        let t11 = a_r[1] + t7;
-        let t12 = t4 + t6;
-        let t13 = t2 - wd2_x;
-        let t14 = t3 - wd2_y;
-        let t15 = t2 + wd2_x;
-        let t16 = t4 + t5;
-        let t17 = 0.007099199999999993 * t14 + 0.07312640000000001 * t15
-            - 0.023750999999999998 * t16
-            - (0.26917800000000014 * t11 - 0.023750999999999998 * t12
-                + 0.95805875 * t13);
-        let t18 = 0.023750999999999998 * t9 - 0.26917800000000014 * t8 + 0.95805875 * t10
-            - (0.5469575999999998 * t14 + 0.007099199999999993 * t15
-                - 0.26917800000000014 * t16);
-        let t19 = 0.5469575999999998 * t11 - 0.007099199999999993 * t12
-            + 0.26917800000000014 * t13
-            - (0.07312640000000001 * t9 - 0.007099199999999993 * t8
-                + 0.023750999999999998 * t10);
-        let w3_x = cos_q3 * w2_x + sin_q3 * w2_y;
-        let w3_y = cos_q3 * w2_y - sin_q3 * w2_x;
-        let wr3_x = cos_q3 * wr2_x + sin_q3 * wr2_y;
-        let wr3_y = cos_q3 * wr2_y - sin_q3 * wr2_x;
-        let a3_z = 0.4318 * t14;
-        let t20 = a2_x - 0.4318 * t8;
-        let t21 = a2_y + 0.4318 * t11;
-        let a3_x = cos_q3 * t20 + sin_q3 * t21;
-        let a3_y = cos_q3 * t21 - sin_q3 * t20;
-        let wd3_x = cos_q3 * wd2_x + sin_q3 * wd2_y
-            + 0.5 * (v_r[2] * w3_y + qd[2] * wr3_y);
-        let wd3_y = cos_q3 * wd2_y - sin_q3 * wd2_x
-            - 0.5 * (v_r[2] * w3_x + qd[2] * wr3_x);
-        let wd3_z = a_r[1] + a_r[2];
+        let t1 = qd[0] * v_r[0];
+        let t2 = qd[1] * v_r[1];
+        let h2_zy = qd[0] * v_r[1] + v_r[0] * qd[1];
+        let t3 = t1 + t2;
+        let a3_x = 0.3474988420565076 * a_r[0] - (cos_q2 * t3 + sin_q2 * a_r[1]);
+        let a3_z = sin_q2 * h2_zy - a_r[0] * cos_q2 - 0.3474988420565076 * t1;
+        let a3_y = cos_q2 * a_r[1] - sin_q2 * t2 + 22.71885132005558;
         let w3_z = qd[1] + qd[2];
         let wr3_z = v_r[1] + v_r[2];
-        let t22 = w3_x * wr3_x;
-        let t23 = w3_y * wr3_y;
-        let t24 = w3_z * wr3_z;
-        let t25 = 0.5 * (w3_x * wr3_y + w3_y * wr3_x);
-        let t26 = 0.5 * (w3_x * wr3_z + wr3_x * w3_z);
-        let t27 = 0.5 * (w3_y * wr3_z + wr3_y * w3_z);
-        let t28 = t23 + t24;
-        let t29 = t25 - wd3_z;
-        let t30 = wd3_y + t26;
-        let t31 = wd3_z + t25;
-        let t32 = t22 + t24;
-        let t33 = t27 - wd3_x;
-        let t34 = t26 - wd3_y;
-        let t35 = wd3_x + t27;
-        let t36 = t22 + t23;
-        let t37 = 0.0000000000000000008673617379884035 * t34 + 0.09327 * t35
-            - 0.0551544 * t36
-            - (0.000000000000000001734723475976807 * t31 - 0.0551544 * t32
-                + 0.12558706799999997 * t33);
-        let t38 = 0.0551544 * t29 - 0.000000000000000001734723475976807 * t28
-            + 0.12558706799999997 * t30
-            - (0.01625 * t34 + 0.0000000000000000008673617379884035 * t35
-                - 0.000000000000000001734723475976807 * t36);
-        let t39 = 0.01625 * t31 - 0.0000000000000000008673617379884035 * t32
-            + 0.000000000000000001734723475976807 * t33
-            - (0.09327 * t29 - 0.0000000000000000008673617379884035 * t28
-                + 0.0551544 * t30);
-        let w4_x = cos_q4 * w3_x - sin_q4 * w3_z;
-        let t40 = cos_q4 * w3_z + sin_q4 * w3_x;
-        let wr4_x = cos_q4 * wr3_x - sin_q4 * wr3_z;
-        let t41 = cos_q4 * wr3_z + sin_q4 * wr3_x;
-        let t42 = 0.15005 * t30 - 0.0203 * t28 + a3_x;
-        let a4_z = 0.0203 * t31 + 0.15005 * t33 + a3_y;
-        let t43 = 0.0203 * t34 - 0.15005 * t36 + a3_z;
-        let a4_x = cos_q4 * t42 - sin_q4 * t43;
-        let t44 = cos_q4 * t43 + sin_q4 * t42;
-        let wd4_x = cos_q4 * wd3_x - sin_q4 * wd3_z - 0.5 * (v_r[3] * t40 + qd[3] * t41);
-        let t45 = cos_q4 * wd3_z + sin_q4 * wd3_x
-            + 0.5 * (v_r[3] * w4_x + qd[3] * wr4_x);
-        let wd4_z = a_r[3] + wd3_y;
+        let t4 = w3_z * wr3_z;
+        let h3_zy = qd[0] * wr3_z + v_r[0] * w3_z;
+        let sin3 = sin_q2 * cos_q3 + cos_q2 * sin_q3;
+        let cos3 = cos_q2 * cos_q3 - sin_q2 * sin_q3;
+        let w3_x = qd[0] * sin3;
+        let w3_y = qd[0] * cos3;
+        let wr3_x = v_r[0] * sin3;
+        let wr3_y = v_r[0] * cos3;
+        let h3_xz = a_r[0] * cos3;
+        let t5 = h3_zy * sin3;
+        let h3_zx = t5 - h3_xz;
+        let t6 = a_r[0] * sin3 + h3_zy * cos3;
+        let t7 = w3_y * wr3_y;
+        let t8 = t4 + t7;
+        let h3_yy = t7 - t1 - t4;
+        let t9 = w3_x * wr3_y + w3_y * wr3_x;
+        let h3_yx = a_r[2] + 0.5 * (a_r[1] + a_r[1] + t9);
+        let h3_xy = t9 - h3_yx;
+        let t10 = a3_x * cos3 + a3_y * sin3;
+        let a4_x = h3_xy - 0.047012505789717454 * t8 + t10;
+        let a4_z = a3_y * cos3 - a3_x * sin3 + (h3_yy + 0.047012505789717454 * h3_yx);
+        let t11 = t6 + 0.047012505789717454 * h3_zx + a3_z;
         let w4_z = qd[3] + w3_y;
         let wr4_z = v_r[3] + wr3_y;
-        let t46 = 0.5 * (w4_x * t41 + t40 * wr4_x);
-        let t47 = 0.5 * (w4_x * wr4_z + wr4_x * w4_z);
-        let t48 = 0.5 * (t40 * wr4_z + t41 * w4_z);
-        let t49 = t47 - t45;
-        let t50 = wd4_x + t48;
-        let t51 = w4_x * wr4_x + t40 * t41;
+        let w4_x = cos_q4 * w3_x - sin_q4 * w3_z;
+        let t12 = cos_q4 * w3_z + sin_q4 * w3_x;
+        let wr4_x = cos_q4 * wr3_x - sin_q4 * wr3_z;
+        let t13 = cos_q4 * wr3_z + sin_q4 * wr3_x;
+        let h4_xz = cos_q4 * h3_xy - sin_q4 * t6;
+        let t14 = cos_q4 * t6 + sin_q4 * h3_xy;
+        let h4_zx = wr4_z * w4_x + w4_z * wr4_x - h4_xz;
+        let t15 = wr4_z * t12 + w4_z * t13;
+        let t16 = w4_x * t13 + t12 * wr4_x;
+        let h4_yx = a_r[3] + 0.5 * (h3_xz - t5 + h3_xz - t16);
+        let h5_xz = t16 + h4_yx;
+        let t17 = cos_q4 * a4_x - sin_q4 * t11;
+        let a5_z = cos_q4 * t11 + sin_q4 * a4_x;
+        let h5_yz = t15 - t14;
+        let w5_z = qd[4] + t12;
+        let wr5_z = v_r[4] + t13;
         let w5_x = cos_q5 * w4_x + sin_q5 * w4_z;
         let w5_y = cos_q5 * w4_z - sin_q5 * w4_x;
         let wr5_x = cos_q5 * wr4_x + sin_q5 * wr4_z;
         let wr5_y = cos_q5 * wr4_z - sin_q5 * wr4_x;
-        let t52 = a4_x + 0.4318 * t49;
-        let a5_z = t44 + 0.4318 * t50;
-        let t53 = a4_z - 0.4318 * t51;
-        let a5_x = cos_q5 * t52 + sin_q5 * t53;
-        let a5_y = cos_q5 * t53 - sin_q5 * t52;
-        let wd5_x = cos_q5 * wd4_x + sin_q5 * wd4_z
-            + 0.5 * (v_r[4] * w5_y + qd[4] * wr5_y);
-        let wd5_y = cos_q5 * wd4_z - sin_q5 * wd4_x
-            - 0.5 * (v_r[4] * w5_x + qd[4] * wr5_x);
-        let wd5_z = a_r[4] + t45;
-        let w5_z = qd[4] + t40;
-        let wr5_z = v_r[4] + t41;
-        let t54 = 0.5 * (w5_x * wr5_y + w5_y * wr5_x);
-        let t55 = 0.5 * (w5_x * wr5_z + wr5_x * w5_z);
-        let t56 = 0.5 * (w5_y * wr5_z + wr5_y * w5_z);
-        let t57 = 0.00020000000000000004 * (wd5_z + t54)
-            - 0.00020000000000000004 * (t54 - wd5_z);
-        let w6_x = cos_q6 * w5_x - sin_q6 * w5_z;
-        let t58 = cos_q6 * w5_z + sin_q6 * w5_x;
-        let wr6_x = cos_q6 * wr5_x - sin_q6 * wr5_z;
-        let t59 = cos_q6 * wr5_z + sin_q6 * wr5_x;
-        let a6_x = cos_q6 * a5_x - sin_q6 * a5_z;
-        let t60 = cos_q6 * a5_z + sin_q6 * a5_x;
-        let wd6_x = cos_q6 * wd5_x - sin_q6 * wd5_z - 0.5 * (v_r[5] * t58 + qd[5] * t59);
-        let t61 = cos_q6 * wd5_z + sin_q6 * wd5_x
-            + 0.5 * (v_r[5] * w6_x + qd[5] * wr6_x);
-        let wd6_z = a_r[5] + wd5_y;
+        let t18 = cos_q5 * h5_xz + sin_q5 * h5_yz;
+        let t19 = wr5_z * w5_x + w5_z * wr5_x;
+        let h5_zy = wr5_z * w5_y + w5_z * wr5_y - (cos_q5 * h5_yz - sin_q5 * h5_xz);
+        let t20 = w5_x * wr5_y + w5_y * wr5_x;
+        let h5_yx = a_r[4] + 0.5 * (h4_zx - h4_xz + t20);
+        let h5_xy = t20 - h5_yx;
         let w6_z = qd[5] + w5_y;
         let wr6_z = v_r[5] + wr5_y;
-        let t62 = 0.5 * (w6_x * t59 + t58 * wr6_x);
-        let t63 = 0.5 * (w6_x * wr6_z + wr6_x * w6_z);
-        let t64 = 0.5 * (t58 * wr6_z + t59 * w6_z);
-        let t65 = t63 - t61;
-        let t66 = wd6_x + t64;
-        let f6_x = 0.09 * a6_x + 0.0028799999999999997 * t65;
-        let t67 = 0.09 * t60 + 0.0028799999999999997 * t66;
-        let n6_z = 0.000019999999999999998 * (wd6_z - t62)
-            + 0.000019999999999999998 * (wd6_z + t62);
-        let n6_x = 0.000019999999999999998 * (wd6_x - t64) + 0.00022216 * t66
-            + 0.0028799999999999997 * t60;
-        let n6_y = 0.00022216 * t65 - 0.000019999999999999998 * (t61 + t63)
-            + 0.0028799999999999997 * a6_x;
+        let n6_z = 0.000039999999999999996 * (a_r[5] + 0.5 * (t18 - t19 + t18));
         let tau6 = n6_z + 0.19406450566800004 * a_r[5];
-        let t68 = sin_q6 * n6_x + cos_q6 * n6_y;
-        let f5_x = cos_q6 * f6_x + sin_q6 * t67 + 0.34 * a5_x;
-        let f5_y = 0.09 * a5_y - 0.0028799999999999997 * (w6_x * wr6_x + t58 * t59)
-            + 0.34 * a5_y;
-        let f5_z = cos_q6 * t67 - sin_q6 * f6_x + 0.34 * a5_z;
-        let n5_x = 0.00020000000000000004 * (wd5_x + t56)
-            - 0.00009999999999999999 * (t56 - wd5_x) + (cos_q6 * n6_x - sin_q6 * n6_y);
-        let n5_y = 0.00009999999999999999 * (wd5_y + t55)
-            - 0.00020000000000000004 * (t55 - wd5_y) + n6_z;
-        let tau5 = t57 - t68 + 0.17070629165700002 * a_r[4];
-        let t69 = cos_q5 * f5_x - sin_q5 * f5_y;
-        let f4_x = 0.82 * a4_x + 0.369656 * t49 + t69;
-        let t70 = 0.82 * t44 + 0.369656 * t50 + f5_z;
-        let f4_z = 0.82 * a4_z - 0.369656 * t51 + (sin_q5 * f5_x + cos_q5 * f5_y);
-        let n4_x = 0.00065 * (wd4_x - t48) + 0.1677909248 * t50 + 0.369656 * t44
-            + (cos_q5 * n5_x - sin_q5 * n5_y + 0.4318 * f5_z);
-        let n4_y = 0.1677909248 * t49 - 0.00065 * (t45 + t47) + 0.369656 * a4_x
-            + (t68 - t57 + 0.4318 * t69);
-        let n4_z = 0.00065 * (wd4_z - t46) + 0.00065 * (wd4_z + t46)
-            + (sin_q5 * n5_x + cos_q5 * n5_y);
+        let f5_x = 0.0012435839999999998 * h5_xy;
+        let t21 = 0.0012435839999999998 * (w5_z * wr5_z + w5_x * wr5_x);
+        let n5_x = 0.00044216000000000004 * h5_zy + 0.0012435839999999998 * a5_z
+            - 0.000019999999999999998 * (w5_z * wr6_z + wr5_z * w6_z);
+        let n5_y = n6_z - 0.00020000000000000004 * (t19 - t18);
+        let n5_z = 0.00020000000000000004 * h5_yx - 0.00044216000000000004 * h5_xy
+            - 0.0012435839999999998 * (cos_q5 * t17 + sin_q5 * a4_z)
+            + 0.000019999999999999998 * (w5_x * wr6_z + wr5_x * w6_z);
+        let tau5 = n5_z + 0.17070629165700002 * a_r[4];
+        let f4_x = cos_q5 * f5_x + sin_q5 * t21 + 0.23306405000000002 * t17;
+        let t22 = 0.0012435839999999998 * h5_zy + 0.23306405000000002 * a5_z;
+        let f4_z = sin_q5 * f5_x - cos_q5 * t21 + 0.23306405000000002 * a4_z;
+        let n4_x = cos_q5 * n5_x - sin_q5 * n5_y + 0.00075 * (t14 - t15);
+        let t23 = n5_z + 0.00065 * h4_zx;
+        let n4_z = sin_q5 * n5_x + cos_q5 * n5_y + (0.00065 * h4_yx + 0.00075 * h5_xz);
+        let t24 = cos_q4 * f4_x + sin_q4 * t22;
         let tau4 = n4_z + 0.19079062612368 * a_r[3];
-        let t71 = cos_q4 * f4_x + sin_q4 * t70;
-        let t72 = cos_q4 * t70 - sin_q4 * f4_x;
-        let n3_x = 0.336 * a3_z - 0.7879199999999998 * a3_y + t37
-            + (cos_q4 * n4_x - sin_q4 * n4_y - 0.15005 * f4_z);
-        let n3_y = t38 + 0.7879199999999998 * a3_x
-            + (0.15005 * t71 - 0.0203 * t72 + n4_z);
-        let n3_z = t39 - 0.336 * a3_x
-            + (0.0203 * f4_z - (sin_q4 * n4_x + cos_q4 * n4_y));
+        let t25 = cos_q4 * t22 - sin_q4 * f4_x;
+        let f3_x = t24 + 0.15181224400000007 * h3_xy;
+        let f3_y = f4_z + 0.15181224400000007 * h3_yy;
+        let n3_x = cos_q4 * n4_x + sin_q4 * t23 + t25
+            + (0.10817090799999998 * t6 + 0.0003162740000000018 * h3_zx
+                - 0.0047376000000000015 * (t1 + h3_yy) + 0.15181224400000007 * a3_z);
+        let n3_z = cos_q4 * t23 - sin_q4 * n4_x + (0.047012505789717454 * f4_z - t24)
+            + (0.01625 * h3_yx - 0.10817090799999998 * h3_xy
+                + 0.0003162740000000018 * (t8 + h3_yy) - 0.0047376000000000015 * h3_xz
+                - 0.15181224400000007 * t10);
+        let t26 = cos3 * f3_x - sin3 * f3_y;
+        let n3_y = sin3 * n3_x
+            + cos3
+                * (n4_z - 0.047012505789717454 * t25
+                    + (0.0047376000000000015 * h3_xy
+                        - (0.01625 * h3_zx + 0.0003162740000000018 * t6)));
         let tau3 = n3_z + 0.5768733319380001 * a_r[2];
-        let t73 = sin_q3 * (0.336 * t29 + 0.7879199999999998 * t30 + 4.8 * a3_x + t71)
-            + cos_q3 * (0.7879199999999998 * t33 - 0.336 * t32 + 4.8 * a3_y + f4_z);
-        let t74 = sin_q3 * n3_x + cos_q3 * n3_y
-            - 0.4318 * (0.336 * t35 - 0.7879199999999998 * t36 + 4.8 * a3_z + t72);
-        let tau2 = 1.1831999999999994 * a2_y - 0.10439999999999999 * a2_x + t19
-            + (n3_z + 0.4318 * t73) + 2.324814845 * a_r[1];
-        let t75 = sin_q2 * (t17 - 3.9585 * a2_y + (cos_q3 * n3_x - sin_q3 * n3_y))
-            + cos_q2 * (t18 + 3.9585 * a2_x + t74);
-        let tau1 = t1 + t1 + t75 + 0.784029968642 * a_r[0];
+        let t27 = 0.014198399999999986 * cos_q2 + 1.3687971519999997 * sin_q2;
+        let t28 = cos_q2 * t27 - 0.007099199999999993;
+        let t29 = 0.6094018560000001 * sin_q2 + 0.023750999999999998 * cos_q2;
+        let t30 = sin_q2 * t27;
+        let t31 = 1.4419235519999998 - t30;
+        let t32 = a_r[0] * t31 - h2_zy * t28
+            + (0.6094018560000001 * cos_q2 - 0.023750999999999998 * sin_q2) * (t1 - t3)
+            - a_r[1] * t29;
+        let t33 = a_r[1] * (0.07312640000000001 + t30 + t31) + (t3 - t2) * t28
+            - a_r[0] * t29
+            + 22.71885132005558
+                * (1.4058717119999997 * cos_q2 - 0.045079919999999996 * sin_q2);
+        let tau2 = cos_q2 * (sin3 * f3_x + cos3 * f3_y) - sin_q2 * t26 + n3_z + t33
+            + 2.324814845 * a_r[1];
+        let tau1 = 0.3474988420565076 * t26 - cos_q2 * (t25 + 0.15181224400000007 * t6)
+            + n3_y + t32 + 2.2176757866420003 * a_r[0];
         [tau1, tau2, tau3, tau4, tau5, tau6]
     }
     fn viscous_friction(&self) -> [f64; 6] {
@@ -264,12 +191,12 @@ pub const PERIOD_MAX: f64 = 0.009336099953143271;
 
 /// What |q − q_d| ends below if [`GUARANTEED`], by joint, rad or m; means nothing otherwise.
 pub const FINAL_ERROR: [f64; 6] = [
-    0.01563767249415427,
-    0.014408018686077296,
-    0.028607850873715545,
-    0.062479850570052196,
-    0.06622064317159355,
-    0.0621797910323735,
+    0.015484057935684154,
+    0.014266483465300777,
+    0.028326825524042337,
+    0.061866088217490754,
+    0.06557013364939872,
+    0.061568976274053624,
 ];
 
 /// Period, torque limits and fault policy.

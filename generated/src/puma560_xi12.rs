@@ -19,7 +19,7 @@
 ///
 /// One passivity torque: 582 multiplications, 580 additions, 4 sine-cosine pairs.
 ///
-/// The exact model costs 300 multiplications, 243 additions, 5 sine-cosine pairs: the exact one is not dearer (543 operations against 1162), so reducing does not pay here.
+/// The exact model costs 175 multiplications, 151 additions, 4 sine-cosine pairs: the exact one is not dearer (326 operations against 1162), so reducing does not pay here.
 ///
 /// Domain of the bounds: |q − q_d(t)| ≤ (0.1, 0.1, 0.1, 0.1, 0.1, 0.1) around the desired trajectory. They are certified, rounding in f64 included; coefficients that are not simplified are exact but for rounding and for terms below 1e-12 of the largest, and count as zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -697,12 +697,12 @@ pub const PERIOD_MAX: f64 = 0.009313473366989662;
 
 /// What |q − q_d| ends below if [`GUARANTEED`], by joint, rad or m; means nothing otherwise.
 pub const FINAL_ERROR: [f64; 6] = [
-    0.015648542510421932,
-    0.014418033948742564,
-    0.028627736685014914,
-    0.0625232813934277,
-    0.06626667428452288,
-    0.06222301327918128,
+    0.015494793209339866,
+    0.01427637458071386,
+    0.028346464834684382,
+    0.06190898068080895,
+    0.06561559416958611,
+    0.06161166274627876,
 ];
 
 /// Period, torque limits and fault policy.

@@ -164,6 +164,18 @@ impl<M: Model<N>, L: Law<M, N>, const N: usize> Controller<M, L, N> {
         &self.memory.law
     }
 
+    /// Puts back what a law has learnt before, such as from a storage that outlives the power; an adaptive law brings it
+    /// into its box before it uses it.
+    pub fn restore(&mut self, state: L::State) {
+        self.memory.law = state;
+    }
+
+    /// Forgets what was learnt and commanded, as after [`Controller::new`].
+    pub fn reset(&mut self) {
+        self.memory =
+            Memory { law: self.law.initial_state(), last_command: [M::Scalar::ZERO; N], last_position: None };
+    }
+
     fn finite(&self, x: &[M::Scalar; N], quantity: Quantity) -> Result<(), Fault<M::Scalar, N>> {
         match first_not_finite(x) {
             None => Ok(()),

@@ -33,6 +33,8 @@ pub enum Requirement {
     NotEmpty,
     /// In strictly increasing order of time.
     Increasing,
+    /// Between the lowest and the highest value that it may take.
+    InsideBox,
 }
 
 impl Display for Requirement {
@@ -46,6 +48,7 @@ impl Display for Requirement {
             Self::PositiveDefinite => "positive definite",
             Self::NotEmpty => "not empty",
             Self::Increasing => "in increasing order of time",
+            Self::InsideBox => "inside its box",
         })
     }
 }

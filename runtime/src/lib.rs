@@ -1,6 +1,7 @@
 //! The `no_std` half of Gramforge: models, tracking laws, the fixed-step controller and a simulator.
 //!
-//! No allocation, no unsafe code, no panic on any number; `libm` for every transcendental, so that all machines agree.
+//! No allocation, no unsafe code, no panic on any number; `libm` for every transcendental, so that all machines agree;
+//! generated models may take their sines faster, from [`trig`].
 //! Everything is generic over the scalar ([`Real`]: `f64` or `f32`) and over the number of joints.
 //!
 //! A generated module supplies a [`Model`] and the constants. The rest of a firmware's loop is this:
@@ -71,14 +72,17 @@ pub mod law;
 mod model;
 mod real;
 pub mod reference;
+mod regression;
 pub mod simulate;
 #[cfg(test)]
 mod test_arm;
+pub mod trig;
 mod vector;
 
 pub use controller::{Command, Controller, OnFault, Settings};
 pub use error::{ConfigError, Fault, PlantError, Quantity, Requirement};
-pub use law::{CoriolisTerm, ExactLaw, Gains, Law, ReportLaw, Switching, TightLaw};
+pub use law::{AdaptiveLaw, CoriolisTerm, ExactLaw, Gains, Law, ReportLaw, Switching, TightLaw};
 pub use model::{Bounds, Model};
 pub use real::Real;
 pub use reference::{Desired, QuinticReference, Reference, SinusoidReference, SplineReference};
+pub use regression::{AdaptiveModel, Regression};

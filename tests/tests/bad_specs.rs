@@ -7,6 +7,8 @@ mod case;
 mod common;
 #[path = "bad_specs/control.rs"]
 mod control;
+#[path = "bad_specs/design.rs"]
+mod design;
 #[path = "bad_specs/files.rs"]
 mod files;
 #[path = "bad_specs/input.rs"]

@@ -1,25 +1,46 @@
 //! No published bound is ever exceeded, and none is much larger than it must be.
 //!
-//! The full version takes a million states an arm, the Panda and a workspace:
+//! The full version sees a million states an arm, the Panda and a workspace:
 //! `cargo test --release -p gramforge-tests --test certified -- --include-ignored --nocapture`
+
+#[path = "certified/attack.rs"]
+mod attack;
+#[path = "certified/errors.rs"]
+mod errors;
+#[path = "certified/space.rs"]
+mod space;
+#[path = "certified/worth.rs"]
+mod worth;
 
 use std::path::{Path, PathBuf};
 
+use attack::{Seen, attack, violations};
 use gramforge::Generation;
 use gramforge::bounds::{Effort, Rates, torque_error};
-use gramforge::lagrangian::{Combination, Function, Lagrangian};
 use gramforge::load::{load, parse};
-use gramforge::measure::Domain;
-use gramforge::spread::Spread;
+use space::Space;
+use worth::worths;
 
-/// What a certificate must live up to.
+/// The fraction of a joint's peak torque below which a bound need not be sharp.
+const NEGLIGIBLE: f64 = 1e-4;
+
+/// What certificates must live up to.
+#[derive(Clone, Copy)]
 struct Demand {
+    /// Random states.
     states: usize,
+    /// Ascents for each coefficient.
+    starts: usize,
+    /// Most that the median of bound/found may be, over the coefficients that matter to the torque.
     median: f64,
+    /// Most that any of these may be.
     worst: f64,
+    /// Most that any other may be.
+    rest: f64,
 }
 
-const LIGHT: Demand = Demand { states: 20_000, median: 1.02, worst: 1.05 };
+const LIGHT: Demand = Demand { states: 5_000, starts: 1, median: 1.02, worst: 1.05, rest: 1.5 };
+const FULL: Demand = Demand { states: 1_000_000, starts: 12, ..LIGHT };
 
 fn file(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
@@ -29,134 +50,84 @@ fn generation(path: &str, effort: &Effort) -> Generation {
     Generation::with_effort(load(&file(path)).unwrap(), effort).unwrap()
 }
 
-/// A domain as a box: position errors and time, or positions.
-struct Space<'a> {
-    generation: &'a Generation,
-    sides: Vec<[f64; 2]>,
-}
-
-impl<'a> Space<'a> {
-    fn new(generation: &'a Generation) -> Self {
-        let mut sides: Vec<[f64; 2]> = match &generation.domain {
-            Domain::Workspace(limits) => limits.clone(),
-            Domain::Tube(errors) => errors.iter().map(|e| [-e, *e]).collect(),
-            Domain::Trajectory => vec![[0.0; 2]; generation.arm.dof()],
-        };
-        if let (Some(motion), false) = (&generation.motion, matches!(generation.domain, Domain::Workspace(_)))
-        {
-            sides.push([0.0, motion.duration()]);
-        }
-        Self { generation, sides }
-    }
-
-    /// The position at the variables `x`.
-    fn position(&self, x: &[f64]) -> Vec<f64> {
-        match (&self.generation.motion, x.get(self.generation.arm.dof())) {
-            (Some(motion), Some(&t)) => motion.at(t).q.iter().zip(x).map(|(q, e)| q + e).collect(),
-            _ => x.to_vec(),
-        }
-    }
-
-    /// Point number `index`; every third one in a corner of the box of positions.
-    fn point(&self, spread: &Spread, index: usize) -> Vec<f64> {
-        let unit = spread.point(index);
-        let n = self.generation.arm.dof();
-        let push = |i: usize, u: f64| if index.is_multiple_of(3) && i < n { u.round() } else { u };
-        let at = |(i, ([low, high], &u)): (usize, (&[f64; 2], &f64))| low + (high - low) * push(i, u);
-        self.sides.iter().zip(&unit).enumerate().map(at).collect()
-    }
-}
-
-fn value(lagrangian: &Lagrangian, terms: &Combination, q: &[f64]) -> f64 {
-    let function = |l: usize| -> &Function { &lagrangian.functions[l] };
-    terms.iter().map(|&(l, k)| k * function(l).evaluate(q)).sum::<f64>().abs()
-}
-
-/// Walks from `x` to larger |f| along single variables, with steps that shrink.
-fn walk(space: &Space, mut x: Vec<f64>, f: impl Fn(&[f64]) -> f64) -> f64 {
-    let mut best = f(&space.position(&x));
-    let mut step = 0.25;
-    while step > 1e-3 {
-        let mut moved = false;
-        for i in 0..x.len() {
-            for direction in [step, -step] {
-                let [low, high] = space.sides[i];
-                let mut next = x.clone();
-                next[i] = (x[i] + direction * (high - low)).clamp(low, high);
-                let there = f(&space.position(&next));
-                if there > best {
-                    (x, best, moved) = (next, there, true);
-                }
-            }
-        }
-        if !moved {
-            step *= 0.4;
-        }
-    }
-    best
-}
-
+/// Every claim of the certificates of `generation`.
 fn check(generation: &Generation, demand: &Demand) {
     let Generation { lagrangian, reduced, certificates, .. } = generation;
     let name = &generation.loaded.spec.name;
-    let space = Space::new(generation);
-    let simplified: Vec<usize> = (0..certificates.len()).filter(|&m| reduced.simplified[m]).collect();
-    let residuals: Vec<Combination> =
-        (0..certificates.len()).map(|m| reduced.residual(lagrangian, m)).collect();
     for (m, certificate) in certificates.iter().enumerate().filter(|(m, _)| !reduced.simplified[*m]) {
         assert_eq!(certificate.bound, 0.0, "{name}: coefficient {m} is exact");
     }
-
-    // No state of the domain exceeds a bound.
-    let spread = Spread::new(space.sides.len());
-    let mut largest = vec![(0.0, Vec::new()); certificates.len()];
-    for index in 0..demand.states {
-        let x = space.point(&spread, index);
-        let psi = lagrangian.evaluate_functions(&space.position(&x));
-        for &m in &simplified {
-            let r = residuals[m].iter().map(|&(l, k)| k * psi[l]).sum::<f64>().abs();
-            assert!(r <= certificates[m].bound, "{name}, coefficient {m}: {r} at {x:?}");
-            if r > largest[m].0 {
-                largest[m] = (r, x.clone());
-            }
+    let worths = match &generation.motion {
+        Some(motion) => worths(generation, motion),
+        // The positions of a workspace have no peak torque of their own: that of the same arm's motion is smaller.
+        None => {
+            let tube = self::generation("generated/specs/puma560_xi12.json", &Effort::default());
+            worths(generation, tube.motion.as_ref().unwrap())
         }
+    };
+    let seen = attack(generation, demand.states, demand.starts);
+    println!("{name}\n  coefficient    bound        found        seen         ratio   boxes   worth");
+    let (mut matters, mut rest) = (Vec::new(), Vec::new());
+    for Seen { m, independent, .. } in &seen {
+        let certificate = &certificates[*m];
+        let (bound, found, ratio) = (certificate.bound, certificate.found, certificate.ratio());
+        let (coefficient, boxes) = (lagrangian.coefficients[*m].name(), certificate.boxes);
+        let worth = worths[*m];
+        println!(
+            "  {coefficient:12} {bound:12.4e} {found:12.4e} {independent:12.4e} {ratio:7.4} {boxes:7} {worth:7.1e}"
+        );
+        if worth > NEGLIGIBLE { &mut matters } else { &mut rest }.push(ratio);
     }
+    let bounds: Vec<f64> = certificates.iter().map(|certificate| certificate.bound).collect();
+    let again = seen.iter().filter(|seen| seen.independent > 0.99 * certificates[seen.m].found).count();
+    matters.sort_by(f64::total_cmp);
+    rest.sort_by(f64::total_cmp);
+    let most = |ratios: &[f64]| ratios.last().copied().unwrap_or(1.0);
+    let median = matters.get(matters.len() / 2).copied().unwrap_or(1.0);
+    println!(
+        "  {} of worth: median {median:.4}, worst {:.4}; {} others: worst {:.4}; {again} of {} seen again within 1 %",
+        matters.len(),
+        most(&matters),
+        rest.len(),
+        most(&rest),
+        seen.len()
+    );
 
-    println!("{name}\n  coefficient    bound        found        found here   ratio   boxes");
-    let mut ratios = Vec::new();
-    let mut again = 0;
-    for &m in &simplified {
-        let certificate = &certificates[m];
-        let (bound, found) = (certificate.bound, certificate.found);
-        let f = |q: &[f64]| value(lagrangian, &residuals[m], q);
-        let here = if largest[m].1.is_empty() { 0.0 } else { walk(&space, largest[m].1.clone(), f) };
-        assert!(here <= bound, "{name}, coefficient {m}: {here} > {bound}");
-        again += usize::from(here > 0.98 * found);
-
-        // The witness is in the domain and attains what the certificate says.
-        let witness = &certificate.witness;
-        assert!((f(witness) - found).abs() <= 1e-9 * bound, "{name}, coefficient {m}: {found} not attained");
-        let centre = match (&generation.motion, certificate.time) {
-            (Some(motion), Some(t)) => motion.at(t).q,
-            _ => vec![0.0; witness.len()],
-        };
-        for ((q, c), [low, high]) in witness.iter().zip(&centre).zip(&space.sides) {
-            // A joint on which the residual does not depend stands at 0, which is in every box of errors.
-            assert!(*low - 1e-12 <= q - c && q - c <= *high + 1e-12 || *q == 0.0);
-        }
-        // A bound that is 2 % smaller is exceeded there.
-        let ratio = certificate.ratio();
-        assert!(ratio >= 1.02 || f(witness) > 0.98 * bound, "{name}, coefficient {m}");
-        let coefficient = lagrangian.coefficients[m].name();
-        let boxes = certificate.boxes;
-        println!("  {coefficient:12} {bound:12.4e} {found:12.4e} {here:12.4e} {ratio:7.4} {boxes:7}");
-        ratios.push(ratio);
+    let exceeded = violations(&bounds, &seen);
+    assert!(exceeded.is_empty(), "{name}: the bounds of {exceeded:?} are exceeded");
+    for Seen { m, witness, inside, .. } in &seen {
+        assert!(*inside, "{name}, coefficient {m}: the witness is outside the domain");
+        let found = certificates[*m].found;
+        // Not the same sum, hence the absolute part.
+        assert!(
+            (witness - found).abs() <= 1e-9 * found + 1e-12,
+            "{name}, coefficient {m}: {witness} for {found}"
+        );
     }
-    ratios.sort_by(f64::total_cmp);
-    let (Some(worst), Some(median)) = (ratios.last(), ratios.get(ratios.len() / 2)) else { return };
-    println!("  median {median:.4}, worst {worst:.4}; found again {again} of {}", ratios.len());
-    assert!(*median <= demand.median, "{name}: median ratio {median}");
-    assert!(*worst <= demand.worst, "{name}: worst ratio {worst}");
+    shrunk_bounds_are_caught(generation, &seen);
+    assert!(median <= demand.median, "{name}: median ratio {median}");
+    assert!(most(&matters) <= demand.worst, "{name}: worst ratio {}", most(&matters));
+    assert!(most(&rest) <= demand.rest, "{name}: worst ratio {} of bounds without worth", most(&rest));
+}
+
+/// Fails unless the check does wherever a sharp bound is made smaller by two percent, and there alone.
+fn shrunk_bounds_are_caught(generation: &Generation, seen: &[Seen]) {
+    let bounds: Vec<f64> = generation.certificates.iter().map(|certificate| certificate.bound).collect();
+    for Seen { m, .. } in seen {
+        let mut shrunk = bounds.clone();
+        shrunk[*m] *= 0.98;
+        let caught = violations(&shrunk, seen);
+        let sharp = generation.certificates[*m].ratio() < 1.02;
+        assert!(caught == [*m] || !sharp && caught.is_empty(), "coefficient {m}: {caught:?}");
+    }
+}
+
+#[test]
+fn a_bound_that_is_too_small_is_exceeded() {
+    for spec in ["generated/specs/arm3_xi2.json", "generated/specs/puma560_xi6.json"] {
+        let generation = generation(spec, &Effort::default());
+        shrunk_bounds_are_caught(&generation, &attack(&generation, 2_000, 1));
+    }
 }
 
 #[test]
@@ -208,10 +179,10 @@ fn no_state_exceeds_the_torque_error() {
         let rates = Rates::of(motion);
         let most = torque_error(lagrangian, reduced, domain, Some(motion), certificates, &rates);
         let space = Space::new(&generation);
-        let (n, spread) = (arm.dof(), Spread::new(space.sides.len()));
+        let n = arm.dof();
         let mut seen = vec![0.0_f64; n];
         for index in 0..2_000 {
-            let q = space.position(&space.point(&spread, index));
+            let q = space.position(&space.point(index));
             let signs = |rate: &[f64], salt: usize| -> Vec<f64> {
                 let bits = (index + 1).wrapping_mul(0x9e37_79b9) >> salt;
                 rate.iter().enumerate().map(|(i, r)| if bits >> i & 1 == 1 { -r } else { *r }).collect()
@@ -246,34 +217,33 @@ fn the_bounds_do_not_depend_on_the_number_of_threads() {
 #[test]
 fn a_spent_budget_still_leaves_a_certificate() {
     let hasty = generation("generated/specs/puma560_xi6.json", &Effort { boxes: 8, ..Effort::default() });
-    check(&hasty, &Demand { states: 2_000, median: f64::INFINITY, worst: f64::INFINITY });
+    let any = f64::INFINITY;
+    check(&hasty, &Demand { states: 2_000, median: any, worst: any, rest: any, ..LIGHT });
 }
 
+/// The default boxes leave one bound of it 20 % above what is found; three times as many leave none.
 #[test]
 #[ignore = "minutes; see the command above"]
 fn full_workspace() {
-    let effort = Effort { tolerance: 0.02, boxes: 1_000_000, ..Effort::default() };
-    let demand = Demand { states: 1_000_000, median: 1.03, worst: 1.05 };
-    check(&generation("tests/data/puma560_workspace.json", &effort), &demand);
+    let effort = Effort { boxes: 300_000, ..Effort::default() };
+    check(&generation("tests/data/puma560_workspace.json", &effort), &FULL);
 }
 
 #[test]
 #[ignore = "minutes; see the command above"]
 fn full_tubes() {
-    let demand = Demand { states: 1_000_000, ..LIGHT };
     for spec in [
         "generated/specs/arm3_xi1.json",
         "generated/specs/puma560_xi12.json",
         "tests/data/ur5.json",
         "tests/data/stanford.json",
     ] {
-        check(&generation(spec, &Effort::default()), &demand);
+        check(&generation(spec, &Effort::default()), &FULL);
     }
 }
 
 #[test]
 #[ignore = "minutes; see the command above"]
 fn full_panda() {
-    let demand = Demand { states: 20_000, median: 1.02, worst: 1.5 };
-    check(&generation("tests/data/panda.json", &Effort::default()), &demand);
+    check(&generation("tests/data/panda.json", &Effort::default()), &FULL);
 }

@@ -9,18 +9,8 @@ use gramforge_runtime::simulate::{JointState, RigidPlant, Simulation};
 use gramforge_tests::{difference, generation, largest};
 
 fn run(generation: &Generation) -> Comparison {
-    let spec = &generation.loaded.spec;
-    let comparison = simulate(&Scenario {
-        file: &generation.loaded.path,
-        arm: &generation.arm,
-        motion: generation.motion.as_ref().expect("the specification has a motion"),
-        design: generation.design.as_ref().expect("the specification has a controller"),
-        code: &generation.code,
-        bounds: &generation.bounds,
-        initial: &spec.control.as_ref().expect("the specification has a controller").initial_error,
-        simulation: &spec.simulation,
-    });
-    comparison.unwrap_or_else(|error| panic!("{error}"))
+    let scenario = Scenario::of(generation);
+    scenario.and_then(|scenario| simulate(&scenario)).unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]

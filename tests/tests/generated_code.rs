@@ -25,7 +25,7 @@ macro_rules! included {
     };
 }
 
-included!(ur5 stanford arm3_sinusoids arm3_waypoints arm3_csv);
+included!(ur5 stanford arm3_sinusoids arm3_waypoints arm3_csv arm3_polynomial arm3_table);
 
 /// A module as `agrees` takes it: its name, its model, and its constants.
 macro_rules! module {
@@ -112,6 +112,8 @@ fn modules_of_a_build_script_agree_with_their_generation() {
     module!(arm3_sinusoids, Arm3Sinusoids);
     module!(arm3_waypoints, Arm3Waypoints);
     module!(arm3_csv, Arm3Csv);
+    module!(arm3_polynomial, Arm3Polynomial);
+    module!(arm3_table, Arm3Table);
     for ready in [ur5::controller().is_ok(), stanford::controller().is_ok(), arm3_csv::controller().is_ok()] {
         assert!(ready);
     }

@@ -22,18 +22,8 @@ fn generate(edit: impl Fn(&mut Value)) -> Result<Generation, String> {
 }
 
 fn run(generation: &Generation) -> Comparison {
-    let spec = &generation.loaded.spec;
-    simulate(&Scenario {
-        file: Path::new("arm.json"),
-        arm: &generation.arm,
-        motion: generation.motion.as_ref().unwrap(),
-        design: generation.design.as_ref().unwrap(),
-        code: &generation.code,
-        bounds: &generation.bounds,
-        initial: &spec.control.as_ref().unwrap().initial_error,
-        simulation: &spec.simulation,
-    })
-    .unwrap()
+    let scenario = Scenario::of(generation);
+    scenario.and_then(|scenario| simulate(&scenario)).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Largest |q_e| by joint over the last fifth of a run, and over all of it.

@@ -45,6 +45,15 @@ impl Body {
         }
     }
 
+    /// Every parameter times `k`.
+    pub fn scaled(&self, k: f64) -> Self {
+        Self {
+            mass: k * self.mass,
+            first_moment: self.first_moment.map(|s| k * s),
+            pseudo_inertia: self.pseudo_inertia.map(|row| row.map(|s| k * s)),
+        }
+    }
+
     /// Centre of mass, m; the frame's origin for a massless body.
     pub fn com(&self) -> [f64; 3] {
         if self.mass > 0.0 { self.first_moment.map(|s| s / self.mass) } else { [0.0; 3] }

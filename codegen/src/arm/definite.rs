@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::Arm;
+use super::{Arm, Parameter, Uncertainty};
 use crate::error::Faults;
 use crate::spread::{Spread, corner, in_box};
 
@@ -33,6 +33,22 @@ impl Indefinite {
                 self.eigenvalue, self.scale, self.q
             ),
             "give every joint some inertia: check the masses, or add `armature` to joints that move no mass",
+        );
+    }
+
+    /// Adds this as a fault of the field `control.uncertainty`, for the arm with its parameters at `u`.
+    pub fn report_member(&self, uncertainty: &Uncertainty, u: &[f64], faults: &mut Faults) {
+        let at = |(p, u): (&Parameter, &f64)| format!("{} = {:.6}", p.name, p.nominal + u);
+        let values: Vec<String> = uncertainty.parameters.iter().zip(u).map(at).collect();
+        faults.push(
+            "control.uncertainty",
+            format!(
+                "reaches an arm that cannot be: with {} the inertia matrix D(q) has the smallest eigenvalue {:.3e} at q = {:?}",
+                values.join(", "),
+                self.eigenvalue,
+                self.q
+            ),
+            "narrow the intervals, so that every combination of their ends is the inertia of a body",
         );
     }
 }
@@ -83,6 +99,7 @@ mod tests {
             kind: JointKind::Revolute,
             pose: Transform::IDENTITY,
             body: Body::default(),
+            link: Transform::IDENTITY,
             armature: 0.0,
             viscous_friction: 0.0,
             coulomb_friction: [0.0; 2],

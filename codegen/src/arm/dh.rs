@@ -43,6 +43,7 @@ pub(super) fn build(
             kind: link.joint,
             pose: from.then(&before),
             body: body.unwrap_or_default().0.moved(&after),
+            link: after,
             armature: drive.armature.unwrap_or(0.0),
             viscous_friction: drive.viscous_friction.unwrap_or(0.0),
             coulomb_friction: drive.coulomb_friction.unwrap_or([0.0; 2]),

@@ -8,14 +8,16 @@ mod drive;
 mod frames;
 mod place;
 mod transform;
+mod uncertainty;
 mod urdf;
 mod validate;
 
-pub(crate) use base_parameters::{Along, Mass};
 pub use crate::spec::JointKind;
+pub(crate) use base_parameters::{Along, Mass};
 pub use definite::{Indefinite, indefinite, indefinite_among};
 pub(crate) use frames::Origin;
 pub use transform::Transform;
+pub use uncertainty::{MOST_PARAMETERS, Parameter, Uncertainty};
 
 use crate::error::Faults;
 use crate::load::Loaded;
@@ -49,6 +51,8 @@ pub struct Joint {
     pub pose: Transform,
     /// Everything that moves with this joint, in its moved frame.
     pub body: Body,
+    /// Pose of the link frame of the file (DH frame, URDF child link) in the moved frame.
+    pub link: Transform,
     /// Reflected rotor inertia, joint side, kg·m² (kg for a prismatic joint).
     pub armature: f64,
     /// Viscous friction B_ii, N·m·s/rad (N·s/m).
@@ -88,6 +92,8 @@ pub struct Limits {
 pub struct Built {
     /// The arm.
     pub arm: Arm,
+    /// All arms that its controller must bear.
+    pub uncertainty: Uncertainty,
     /// One sentence each, naming file, field and value.
     pub warnings: Vec<String>,
 }
@@ -137,7 +143,14 @@ impl Arm {
         if !arm.joints.iter().all(|j| j.body.is_finite() && sane(&j.pose)) || !sane(&arm.tip) {
             faults.push("arm", "holds lengths and masses whose products overflow", "write them in SI units");
         }
-        (faults.count() == before).then_some(Built { arm, warnings })
+        if faults.count() > before {
+            return None;
+        }
+        let ranges = loaded.spec.control.as_ref().and_then(|control| control.uncertainty.as_ref());
+        let uncertainty = ranges
+            .map(|ranges| Uncertainty::new(ranges, &arm, spec, &loaded.path, faults))
+            .unwrap_or_default();
+        (faults.count() == before).then_some(Built { arm, uncertainty, warnings })
     }
 
     /// Number of joints n.

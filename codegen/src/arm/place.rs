@@ -23,6 +23,11 @@ impl Place {
         Self { file: self.file.clone(), field }
     }
 
+    /// Entry number `index` of this one.
+    pub fn item(&self, index: usize) -> Self {
+        Self { file: self.file.clone(), field: format!("{}[{index}]", self.field) }
+    }
+
     /// Adds a fault here.
     pub fn fault(&self, faults: &mut Faults, problem: impl Into<String>, mend: impl Into<String>) {
         faults.push_in(&self.file, &self.field, problem, mend);

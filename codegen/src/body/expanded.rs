@@ -12,16 +12,29 @@ use crate::reduction::Reduced;
 /// v_jk = q̇_j v_r,k + q̇_k v_r,j and v_jj = q̇_j v_r,j. One line a ψ and one a coefficient, under stable names.
 pub fn expanded(arm: &Arm, lagrangian: &Lagrangian, reduced: &Reduced) -> Graph {
     let builder = Builder::new();
-    let psi = functions(&builder, lagrangian, reduced);
+    let psi = functions(&builder, lagrangian, reduced.combinations.iter().flatten());
     let alphas: Vec<_> = lagrangian
         .coefficients
         .iter()
         .zip(&reduced.combinations)
         .map(|(coefficient, terms)| alpha(&builder, &coefficient.name(), terms, &psi))
         .collect();
-    let mut rows: Vec<Vec<Expr>> = vec![Vec::new(); arm.dof()];
+    let outputs = torque(&builder, arm.dof(), lagrangian, &alphas);
+    let outputs: Vec<_> =
+        (1..).zip(outputs).map(|(i, tau)| tau.named(&format!("tau{i}"), true).id()).collect();
+    builder.finish(&outputs)
+}
+
+/// The torque whose coefficients are `alphas`, by row.
+pub(super) fn torque<'g>(
+    builder: &'g Builder,
+    dof: usize,
+    lagrangian: &Lagrangian,
+    alphas: &[Option<Expr<'g>>],
+) -> Vec<Expr<'g>> {
+    let mut rows: Vec<Vec<Expr>> = vec![Vec::new(); dof];
     for (coefficient, alpha) in lagrangian.coefficients.iter().zip(alphas) {
-        let Some(alpha) = alpha else { continue };
+        let Some(alpha) = *alpha else { continue };
         for place in &coefficient.places {
             let minus = place.sign < 0.0;
             match place.entry {
@@ -31,34 +44,28 @@ pub fn expanded(arm: &Arm, lagrangian: &Lagrangian, reduced: &Reduced) -> Graph 
                         rows[j].push(signed(minus, alpha * builder.input(Variable::Ar(i))));
                     }
                 }
-                Entry::H(i, j, k) => rows[i].push(signed(minus, alpha * velocity_product(&builder, j, k))),
+                Entry::H(i, j, k) => rows[i].push(signed(minus, alpha * velocity_product(builder, j, k))),
                 Entry::G(i) => rows[i].push(signed(minus, alpha)),
             }
         }
     }
-    let outputs: Vec<_> = (1..)
-        .zip(rows)
-        .map(|(i, row)| {
-            let torque = row.into_iter().reduce(|sum, term| sum + term);
-            torque.unwrap_or(builder.constant(0.0)).named(&format!("tau{i}"), true).id()
-        })
-        .collect();
-    builder.finish(&outputs)
+    let sum = |row: Vec<Expr<'g>>| row.into_iter().reduce(|sum, term| sum + term);
+    rows.into_iter().map(|row| sum(row).unwrap_or(builder.constant(0.0))).collect()
 }
 
-/// The functions that occur, by index.
-fn functions<'g>(
+/// The functions that occur in `terms`, by index.
+pub(super) fn functions<'g, 't>(
     builder: &'g Builder,
     lagrangian: &Lagrangian,
-    reduced: &Reduced,
+    terms: impl Iterator<Item = &'t (usize, f64)>,
 ) -> BTreeMap<usize, Expr<'g>> {
     let mut harmonics = Harmonics::new(builder);
-    let used: BTreeSet<usize> = reduced.combinations.iter().flatten().map(|&(l, _)| l).collect();
+    let used: BTreeSet<usize> = terms.map(|&(l, _)| l).collect();
     used.into_iter().map(|l| (l, harmonics.function(&lagrangian.functions[l]))).collect()
 }
 
 /// Σ k_l ψ_l, named; `None` for the empty sum.
-fn alpha<'g>(
+pub(super) fn alpha<'g>(
     builder: &'g Builder,
     name: &str,
     terms: &[(usize, f64)],

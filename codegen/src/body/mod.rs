@@ -2,12 +2,16 @@
 
 mod expanded;
 mod harmonics;
+mod plain;
 mod recursive;
+mod regressor;
 #[cfg(test)]
 mod tests;
 
 pub use expanded::expanded;
+pub use plain::plain;
 pub use recursive::recursive;
+pub use regressor::{Regressor, regressor};
 
 use crate::arm::Arm;
 use crate::graph::Graph;

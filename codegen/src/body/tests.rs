@@ -53,7 +53,14 @@ fn the_recursion_does_not_take_the_first_joint_s_angle_where_gravity_is_along_it
 #[test]
 #[ignore]
 fn show() {
-    for file in ["../../generated/specs/arm3_exact.json", "puma3.json", "../../generated/specs/puma560_exact.json", "ur5.json", "panda.json", "stanford.json"] {
+    for file in [
+        "../../generated/specs/arm3_exact.json",
+        "puma3.json",
+        "../../generated/specs/puma560_exact.json",
+        "ur5.json",
+        "panda.json",
+        "stanford.json",
+    ] {
         let arm = arm(file);
         let t = std::time::Instant::now();
         let g = recursive(&arm);

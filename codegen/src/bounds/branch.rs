@@ -2,79 +2,205 @@
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
+use std::rc::Rc;
 
-use super::Effort;
 use super::ascent::{Summit, climb, search};
+use super::expansion::{Expander, Expansion};
 use super::polynomial::Scratch;
 use super::region::{Cell, Region};
-use super::residual::Residual;
+use super::residual::{Residual, narrow};
+use super::{Effort, LONG};
+use crate::measure::Domain;
+use crate::motion::Motion;
+
+/// Residuals beyond which a joint maximum gets no larger budget.
+const BUDGETS: usize = 8;
+
+/// Residuals beyond which each is searched from fewer starts.
+const SEARCHES: usize = 16;
+
+/// Terms of a residual beyond which its cells are enclosed by expansions.
+const EXPANDED: usize = 50;
+
+/// What the remainder of an expansion may take of the gap that is near enough.
+const REMAINDER: f64 = 0.15;
 
 /// What branch and bound proves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Proof {
-    /// |f| exceeds this nowhere.
+    /// |f| of no residual exceeds this anywhere.
     pub upper: f64,
     /// The largest |f| that was found.
     pub found: Summit,
+    /// The residual that attains it.
+    pub residual: usize,
     /// Cells enclosed.
     pub boxes: usize,
 }
 
-/// A cell waiting to be halved, for the maximum of `sign`·f.
-#[derive(Clone, Copy, Debug)]
+/// A cell waiting to be halved, for the maximum of `sign`·f of one residual.
+#[derive(Clone, Debug)]
 pub(super) struct Waiting {
     pub upper: f64,
     /// Order of arrival, which settles ties.
     pub number: usize,
+    pub residual: usize,
     pub sign: f64,
     pub split: usize,
     pub cell: Cell,
+    pub expansion: Option<Rc<Expansion>>,
 }
 
-/// Bounds max |f| over `region`. Where the largest value stays below `floor`, half as much again is near enough.
-pub fn maximum(residual: &Residual, region: &Region, effort: &Effort, floor: f64) -> Proof {
-    let mut scratch = Scratch::default();
-    let mut found = search(residual, region, effort.starts, &mut scratch);
-    let near = |found: f64| {
-        let fine = found * (1.0 + effort.tolerance);
-        if found <= floor { fine.max(1.5 * found.max(f64::MIN_POSITIVE)) } else { fine }
+/// Bounds the largest |f| of all `residuals` over `domain` together. Where it stays below `floor`, half as much again
+/// is near enough. Whatever stays below a value found of any residual is left alone, and all draw on one budget, which
+/// grows with the first eight of them. Without residuals all is zero.
+pub fn maximum(
+    residuals: &[Residual],
+    domain: &Domain,
+    motion: Option<&Motion>,
+    effort: &Effort,
+    floor: f64,
+) -> Proof {
+    let subject = |residual| Subject::new(residual, domain, motion);
+    let mut front = Front {
+        subjects: residuals.iter().map(subject).collect(),
+        tolerance: effort.tolerance,
+        floor,
+        heap: BinaryHeap::new(),
+        proof: Proof { found: Summit { height: -1.0, x: Vec::new() }, ..Proof::default() },
+        spent: 0,
+        scratch: Scratch::default(),
     };
-    let budget = effort.budget(residual.polynomial.terms().count());
-    let mut heap = BinaryHeap::new();
-    let (mut boxes, mut settled) = (0, found.height);
-    let mut enter =
-        |heap: &mut BinaryHeap<Waiting>, found: &mut Summit, cell: Cell, sign: f64, parent: f64| {
-            boxes += 1;
-            let narrowed = residual.narrow(region, cell, sign, &mut scratch);
-            let Some((cell, enclosure)) = narrowed else { return boxes };
-            if sign * enclosure.centre > found.height {
-                let centre: Vec<f64> = middle(&cell, region.variables());
-                *found = std::mem::take(found).or(climb(residual, region, &centre, &mut scratch));
-            }
-            let upper = enclosure.upper.min(parent);
-            if upper <= near(found.height) {
-                settled = settled.max(upper);
-            } else {
-                heap.push(Waiting { upper, number: boxes, sign, split: enclosure.split, cell });
-            }
-            boxes
-        };
-    let mut count = 0;
-    for sign in [1.0, -1.0] {
-        count = enter(&mut heap, &mut found, region.root, sign, f64::INFINITY);
+    let starts = match residuals.len() {
+        0..=SEARCHES => effort.starts,
+        more => (effort.starts * SEARCHES / more).max(effort.starts.min(2)),
+    };
+    front.search(starts);
+    for residual in 0..residuals.len() {
+        for sign in [1.0, -1.0] {
+            front.enter(residual, front.subjects[residual].region.root, sign, f64::INFINITY, None);
+        }
     }
+    let budget = effort.boxes * residuals.len().min(BUDGETS);
     let mut open = 0.0;
-    while let Some(top) = heap.pop() {
+    while let Some(top) = front.heap.pop() {
         // Where a cell has become a point, only rounding stands between the two bounds.
-        if top.upper <= near(found.height) || count >= budget || !divisible(&top.cell, top.split) {
+        let done = top.upper <= front.near() || front.spent >= budget;
+        if done || !divisible(&top.cell, top.split) {
             open = top.upper;
             break;
         }
         for cell in halves(&top.cell, top.split) {
-            count = enter(&mut heap, &mut found, cell, top.sign, top.upper);
+            front.enter(top.residual, cell, top.sign, top.upper, top.expansion.clone());
         }
     }
-    Proof { upper: settled.max(open).max(found.height), found, boxes: count }
+    let mut proof = front.proof;
+    proof.found.height = proof.found.height.max(0.0);
+    proof.upper = proof.upper.max(open).max(proof.found.height);
+    proof
+}
+
+/// One of the residuals.
+struct Subject<'a> {
+    residual: &'a Residual,
+    region: Region<'a>,
+    /// Where the residual is long enough.
+    expander: Option<Expander<'a>>,
+    /// What enclosing a box without an expansion costs, in boxes.
+    cost: usize,
+}
+
+impl<'a> Subject<'a> {
+    fn new(residual: &'a Residual, domain: &Domain, motion: Option<&'a Motion>) -> Self {
+        let terms = residual.polynomial.terms().count();
+        let region = Region::new(domain, motion, &residual.polynomial.joints);
+        let expander = (terms > EXPANDED).then(|| Expander::new(residual));
+        let cost = if terms > LONG { 2 * terms.div_ceil(LONG) } else { 1 };
+        Self { residual, region, expander, cost }
+    }
+}
+
+/// What is known so far: `proof.upper` covers the cells that were left alone, the heap holds the others.
+struct Front<'a> {
+    subjects: Vec<Subject<'a>>,
+    tolerance: f64,
+    floor: f64,
+    heap: BinaryHeap<Waiting>,
+    proof: Proof,
+    /// Boxes, as much as they cost.
+    spent: usize,
+    scratch: Scratch,
+}
+
+impl Front<'_> {
+    /// Searches every residual from below.
+    fn search(&mut self, starts: usize) {
+        for residual in 0..self.subjects.len() {
+            let Subject { residual: f, region, .. } = &self.subjects[residual];
+            let summit = search(f, region, starts, &mut self.scratch);
+            self.offer(residual, summit);
+        }
+    }
+
+    /// Keeps the higher of two summits, the earlier one where they tie.
+    fn offer(&mut self, residual: usize, summit: Summit) {
+        if summit.height > self.proof.found.height {
+            (self.proof.found, self.proof.residual) = (summit, residual);
+        }
+    }
+
+    /// The upper bound that is near enough.
+    fn near(&self) -> f64 {
+        let found = self.proof.found.height;
+        let fine = found * (1.0 + self.tolerance);
+        if found <= self.floor { fine.max(1.5 * found.max(f64::MIN_POSITIVE)) } else { fine }
+    }
+
+    /// Encloses a cell whose parent stays below `parent`, by the expansion that was good for the parent or else by
+    /// one of its own or else directly; it waits unless its bound is near enough.
+    fn enter(
+        &mut self,
+        residual: usize,
+        cell: Cell,
+        sign: f64,
+        parent: f64,
+        mut expansion: Option<Rc<Expansion>>,
+    ) {
+        self.proof.boxes += 1;
+        let room = REMAINDER * (self.near() - self.proof.found.height);
+        let Subject { residual: f, region, expander, cost } = &mut self.subjects[residual];
+        if let (Some(expander), None) = (expander.as_mut(), &expansion) {
+            expansion = expander.expand(&region.frame(&cell), room).map(Rc::new);
+        }
+        let narrowed = if let (Some(expander), Some(expansion)) = (expander, &expansion) {
+            self.spent += 1;
+            narrow(region, cell, |frame| expander.enclose(expansion, frame, sign))
+        } else {
+            self.spent += *cost;
+            narrow(region, cell, |frame| f.enclose(frame, &f.jet(frame, &mut self.scratch), sign))
+        };
+        let Some((cell, enclosure)) = narrowed else { return };
+        if enclosure.least > self.proof.found.height {
+            let centre: Vec<f64> = middle(&cell, region.variables());
+            let summit = climb(f, region, &centre, &mut self.scratch);
+            self.offer(residual, summit);
+        }
+        let upper = enclosure.upper.min(parent);
+        if upper <= self.near() {
+            self.proof.upper = self.proof.upper.max(upper);
+        } else {
+            let number = self.proof.boxes;
+            self.heap.push(Waiting {
+                upper,
+                number,
+                residual,
+                sign,
+                split: enclosure.split,
+                cell,
+                expansion,
+            });
+        }
+    }
 }
 
 /// The centre of a cell.

@@ -22,8 +22,7 @@ pub fn estimate(
     motion: Option<&Motion>,
 ) -> Option<Vec<f64>> {
     let motion = motion.filter(|_| !matches!(domain, Domain::Workspace(_)))?;
-    let largest = |residual: Option<super::Residual>| {
-        let Some(residual) = residual else { return 0.0 };
+    let largest = |residual: &super::Residual| {
         let region = Region::new(domain, Some(motion), &residual.polynomial.joints);
         let k = region.joints.len();
         let mut scratch = Scratch::default();
@@ -35,5 +34,6 @@ pub fn estimate(
         };
         (0..=INSTANTS).map(&mut at).fold(0.0, f64::max)
     };
-    Some(residuals(lagrangian, reduced, domain, Some(motion)).into_par_iter().map(largest).collect())
+    let residuals = residuals(lagrangian, reduced, domain, Some(motion));
+    Some(residuals.par_iter().map(|vertices| vertices.iter().map(largest).fold(0.0, f64::max)).collect())
 }

@@ -2,38 +2,46 @@
 //!
 //! Every residual α_m − α̂_m is a polynomial in sines, cosines and prismatic coordinates with known coefficients.
 //! Branch and bound over boxes of position errors and time encloses it to second order with a bound on its third
-//! derivatives, until the bound is close above the largest value that a search finds. What is published holds at
-//! every point of the domain, rounding included.
+//! derivatives, until the bound is close above the largest value that a search finds; long residuals are first
+//! expanded about a few points. What is published holds at every point of the domain, rounding included.
 
 mod ascent;
 mod branch;
+mod envelope;
 mod estimate;
+mod expansion;
 mod polynomial;
+mod recursion;
 mod region;
 mod residual;
 mod rounding;
+mod sines;
+mod taylor;
 mod tensors;
 #[cfg(test)]
 mod tests;
 mod torque;
 
 pub use estimate::estimate;
+pub use recursion::recursion;
+pub use region::reach;
+pub use sines::with_sines;
 pub use torque::{Rates, peak_torque, torque_error};
 
 use rayon::prelude::*;
 
-use crate::lagrangian::{Entry, Lagrangian};
+use crate::lagrangian::{Coefficient, Combination, Entry, Lagrangian};
 use crate::measure::Domain;
 use crate::motion::Motion;
-use crate::reduction::Reduced;
+use crate::reduction::{Reduced, plus};
 use polynomial::Polynomial;
-use region::{Region, reach};
+use region::Region;
 use residual::Residual;
 
 /// A residual below this fraction of its coefficient's Σ|k_l| need not be bounded more sharply than by half.
 const FLOOR: f64 = 1e-6;
 
-/// Terms of a residual beyond which its boxes grow fewer.
+/// Terms of a residual beyond which enclosing a box term by term counts for more than one box.
 pub const LONG: usize = 1000;
 
 /// How much work a certificate may take.
@@ -41,8 +49,8 @@ pub const LONG: usize = 1000;
 pub struct Effort {
     /// Where bound and largest value found differ by less than this fraction, branch and bound stops.
     pub tolerance: f64,
-    /// Boxes for each residual of up to [`LONG`] terms, for longer ones accordingly fewer; when they are spent, the
-    /// bound found so far stands. A box that waits takes 200 bytes.
+    /// Boxes for each residual; of those that are enclosed term by term, a residual of more than [`LONG`] terms gets
+    /// accordingly fewer. When they are spent, the bound found so far stands. A box that waits takes 200 bytes.
     pub boxes: usize,
     /// Starts of the search from below.
     pub starts: usize,
@@ -58,13 +66,6 @@ impl Default for Effort {
     }
 }
 
-impl Effort {
-    /// Boxes for a residual of `terms` terms.
-    fn budget(&self, terms: usize) -> usize {
-        if terms > LONG { self.boxes / (2 * terms.div_ceil(LONG)) } else { self.boxes }
-    }
-}
-
 /// A bound on one coefficient, and how sharp it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Certificate {
@@ -76,18 +77,23 @@ pub struct Certificate {
     pub witness: Vec<f64>,
     /// The instant of the motion to which that position belongs, s; `None` over a workspace.
     pub time: Option<f64>,
+    /// The uncertain parameters there, counted from the arm's own.
+    pub parameters: Vec<f64>,
     /// Boxes that branch and bound enclosed.
     pub boxes: usize,
+    /// The part of the bound that stands for sines and cosines off by more than an ulp.
+    pub sines: f64,
 }
 
 impl Certificate {
-    /// bound/found; 1 for an exact coefficient.
+    /// bound/found; 1 for a coefficient that is not simplified.
     pub fn ratio(&self) -> f64 {
-        if self.bound == 0.0 { 1.0 } else { self.bound / self.found }
+        if self.boxes == 0 || self.bound == 0.0 { 1.0 } else { self.bound / self.found }
     }
 }
 
-/// A certificate for each coefficient; zero for those that are not simplified. The same on any number of threads.
+/// A certificate for each coefficient over the domain and all uncertain parameters; zero for those that are exact. The
+/// same on any number of threads.
 pub fn certified(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
@@ -99,38 +105,80 @@ pub fn certified(
     residuals(lagrangian, reduced, domain, motion)
         .into_par_iter()
         .enumerate()
-        .map(|(m, residual)| {
-            let Some(residual) = residual else { return Certificate::default() };
-            let region = Region::new(domain, motion, &residual.polynomial.joints);
-            let size: f64 = lagrangian.coefficients[m].terms.iter().map(|(_, k)| k.abs()).sum();
-            let proof = branch::maximum(&residual, &region, effort, FLOOR * size);
-            let rounding = rounding::published(lagrangian, m, &reduced.combinations[m], &reach);
+        .map(|(m, residuals)| {
+            if residuals.is_empty() {
+                return Certificate::default();
+            }
+            let coefficient = &lagrangian.coefficients[m];
+            let terms = coefficient.terms.iter().chain(coefficient.variations.iter().flatten());
+            let size: f64 = terms.map(|(_, k)| k.abs()).sum();
+            let proof = branch::maximum(&residuals, domain, motion, effort, FLOOR * size);
+            let rounding = rounding::published(lagrangian, m, reduced, &reach);
             let bound = (proof.upper + rounding).next_up();
+            let region = Region::new(domain, motion, &residuals[proof.residual].polynomial.joints);
             let (time, witness) = region.position(lagrangian.dof, &proof.found.x);
-            Certificate { bound, found: proof.found.height, witness, time, boxes: proof.boxes }
+            let parameters = vertex(&active(lagrangian, reduced, m), lagrangian, proof.residual);
+            let (found, boxes) = (proof.found.height, proof.boxes);
+            Certificate { bound, found, witness, time, parameters, boxes, sines: 0.0 }
         })
         .collect()
 }
 
-/// The residuals of the simplified coefficients, in order; `None` for the others.
+/// What is left out of each coefficient, in order, at every vertex of the box of the uncertain parameters on which that
+/// depends; nothing for coefficients that are exact.
 fn residuals(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     domain: &Domain,
     motion: Option<&Motion>,
-) -> Vec<Option<Residual>> {
+) -> Vec<Vec<Residual>> {
     let reach = reach(domain, motion);
     (0..lagrangian.coefficients.len())
         .into_par_iter()
         .map(|m| {
-            if !reduced.simplified[m] {
-                return None;
-            }
-            let terms = reduced.residual(lagrangian, m);
-            let polynomial = Polynomial::new(terms.iter().map(|&(l, k)| (&lagrangian.functions[l], k)));
-            Some(Residual::new(polynomial, domain, motion, &reach))
+            let prepare = |terms: Combination| {
+                let polynomial = Polynomial::new(terms.iter().map(|&(l, k)| (&lagrangian.functions[l], k)));
+                Residual::new(polynomial, domain, motion, &reach)
+            };
+            at_vertices(lagrangian, reduced, m).into_iter().map(prepare).collect()
         })
         .collect()
+}
+
+/// α_m − α̂_m at the vertices of the box of the uncertain parameters on which it depends. As it is affine in these, its
+/// largest absolute value over the box stands at one of them, whatever q.
+pub fn at_vertices(lagrangian: &Lagrangian, reduced: &Reduced, m: usize) -> Vec<Combination> {
+    let active = active(lagrangian, reduced, m);
+    if !reduced.simplified[m] && active.is_empty() {
+        return Vec::new();
+    }
+    let own = reduced.residual(lagrangian, m);
+    (0..1_usize << active.len())
+        .map(|index| {
+            let u = vertex(&active, lagrangian, index);
+            active
+                .iter()
+                .fold(own.clone(), |sum, &k| plus(&sum, u[k], &reduced.residual_variation(lagrangian, m, k)))
+        })
+        .collect()
+}
+
+/// The uncertain parameters on which α_m − α̂_m depends.
+fn active(lagrangian: &Lagrangian, reduced: &Reduced, m: usize) -> Vec<usize> {
+    let varies = |&k: &usize| {
+        let [low, high] = lagrangian.ranges[k];
+        low < high && !reduced.residual_variation(lagrangian, m, k).is_empty()
+    };
+    (0..lagrangian.ranges.len()).filter(varies).collect()
+}
+
+/// Vertex number `index` of the box of the `active` parameters; the others stay at 0.
+fn vertex(active: &[usize], lagrangian: &Lagrangian, index: usize) -> Vec<f64> {
+    let mut u = vec![0.0; lagrangian.ranges.len()];
+    for (bit, &k) in active.iter().enumerate() {
+        u[k] = lagrangian.ranges[k][index >> bit & 1];
+    }
+    u
 }
 
 /// Element-by-element bounds (26)–(28) over a domain, zero where the model is exact.
@@ -140,6 +188,8 @@ pub struct Bounds {
     pub d: Vec<Vec<f64>>,
     /// Δh_ijk, n×n×n.
     pub h: Vec<Vec<Vec<f64>>>,
+    /// ΔB of the diagonal viscous friction, n.
+    pub b: Vec<f64>,
     /// ΔG, n.
     pub g: Vec<f64>,
 }
@@ -148,13 +198,15 @@ impl Bounds {
     /// True where every bound is a finite number.
     pub fn is_finite(&self) -> bool {
         let h = self.h.iter().flatten();
-        self.d.iter().chain(h).chain([&self.g]).flatten().all(|v| v.is_finite())
+        self.d.iter().chain(h).chain([&self.b, &self.g]).flatten().all(|v| v.is_finite())
     }
 
-    /// Spreads one bound for each coefficient over the places where it stands.
+    /// Spreads one bound for each coefficient over the places where it stands; ΔB = 0.
     pub fn new(lagrangian: &Lagrangian, deltas: &[f64]) -> Self {
         let n = lagrangian.dof;
-        let mut out = Self { d: vec![vec![0.0; n]; n], h: vec![vec![vec![0.0; n]; n]; n], g: vec![0.0; n] };
+        let zero = vec![0.0; n];
+        let mut out =
+            Self { d: vec![zero.clone(); n], h: vec![vec![zero.clone(); n]; n], b: zero.clone(), g: zero };
         for (coefficient, &delta) in lagrangian.coefficients.iter().zip(deltas) {
             for place in &coefficient.places {
                 match place.entry {
@@ -171,6 +223,45 @@ impl Bounds {
             }
         }
         out
+    }
+
+    /// Those of the certificates; ΔB = 0.
+    pub fn of(lagrangian: &Lagrangian, certificates: &[Certificate]) -> Self {
+        let deltas: Vec<f64> = certificates.iter().map(|certificate| certificate.bound).collect();
+        Self::new(lagrangian, &deltas)
+    }
+
+    /// Entry by entry the sum, rounded up.
+    #[must_use]
+    pub fn plus(mut self, other: &Self) -> Self {
+        let add =
+            |own: &mut f64, more: &f64| *own = if *more == 0.0 { *own } else { (*own + more).next_up() };
+        let own = self.d.iter_mut().chain(self.h.iter_mut().flatten()).chain([&mut self.b, &mut self.g]);
+        let more = other.d.iter().chain(other.h.iter().flatten()).chain([&other.b, &other.g]);
+        own.zip(more).for_each(|(own, more)| own.iter_mut().zip(more).for_each(|(own, more)| add(own, more)));
+        self
+    }
+
+    /// For each coefficient the largest bound of its places, nothing searched.
+    pub fn certificates(&self, lagrangian: &Lagrangian) -> Vec<Certificate> {
+        let at = |entry: Entry| match entry {
+            Entry::D(i, j) => self.d[i][j].max(self.d[j][i]),
+            Entry::H(i, j, k) => self.h[i][j][k],
+            Entry::G(i) => self.g[i],
+        };
+        let largest =
+            |c: &Coefficient| c.places.iter().fold(0.0, |most: f64, place| most.max(at(place.entry)));
+        let certificate = |bound: f64| Certificate { bound, sines: bound, ..Certificate::default() };
+        lagrangian.coefficients.iter().map(|c| certificate(largest(c))).collect()
+    }
+
+    /// Bound on |δD a_r + δC v_r + δG| by joint, N·m or N, for rates up to `rates`: every entry at its largest.
+    pub fn torque(&self, rates: &Rates) -> Vec<f64> {
+        let (a, v, w) = (&rates.reference_acceleration, &rates.speed, &rates.reference_speed);
+        let sum = |row: &[f64], x: &[f64]| row.iter().zip(x).map(|(e, x)| e * x).sum::<f64>();
+        let coriolis = |plane: &[Vec<f64>]| plane.iter().zip(w).map(|(row, w)| sum(row, v) * w).sum::<f64>();
+        let torque = |i: usize| sum(&self.d[i], a) + coriolis(&self.h[i]) + self.g[i];
+        (0..self.g.len()).map(|i| torque(i) * (1.0 + rounding::gamma(1024.0))).collect()
     }
 
     /// Equation (30): ΔC_ij = Σ_k Δh_ijk max|q̇_k|, with the largest speeds given.

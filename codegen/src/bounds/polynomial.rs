@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::lagrangian::{Function, MAX_JOINTS};
 
 /// A complex number [real, imaginary].
-type Complex = [f64; 2];
+pub(super) type Complex = [f64; 2];
 
 /// Value, gradient and Hessian at one point, over the joints that occur.
 #[derive(Clone, Debug, Default)]
@@ -18,6 +18,24 @@ pub struct Jet {
     pub hessian: [[f64; MAX_JOINTS]; MAX_JOINTS],
 }
 
+impl Jet {
+    /// Takes value, gradient and the upper triangle of the Hessian over `k` joints; what is missing is 0.
+    pub fn of(mut numbers: impl Iterator<Item = f64>, k: usize) -> Self {
+        let mut next = || numbers.next().unwrap_or(0.0);
+        let mut jet = Self { value: next(), ..Self::default() };
+        for i in 0..k {
+            jet.gradient[i] = next();
+        }
+        for i in 0..k {
+            for j in i..k {
+                jet.hessian[i][j] = next();
+                jet.hessian[j][i] = jet.hessian[i][j];
+            }
+        }
+        jet
+    }
+}
+
 /// f(q) = Re Σ c_l Π_j φ_jl(q_j), φ = e^{iκq} for a revolute joint and q^p for a prismatic one.
 ///
 /// Terms that differ only in their last joint's exponent share everything before it, so f is evaluated like a nested
@@ -27,24 +45,24 @@ pub struct Polynomial {
     /// The joints that occur, ascending.
     pub joints: Vec<usize>,
     /// Whether each is prismatic.
-    prismatic: Vec<bool>,
+    pub(super) prismatic: Vec<bool>,
     /// Exponents from `-largest` to `largest`.
-    largest: Vec<i8>,
+    pub(super) largest: Vec<i8>,
     /// One level a joint, the first joint first.
-    levels: Vec<Level>,
+    pub(super) levels: Vec<Level>,
     /// c_l in tree order.
-    coefficients: Vec<Complex>,
+    pub(super) coefficients: Vec<Complex>,
     /// The exponents of each term over `joints`, in tree order.
     exponents: Vec<Vec<i8>>,
 }
 
 /// Children are sorted, so each group is a range of them.
 #[derive(Clone, Debug, Default)]
-struct Level {
+pub(super) struct Level {
     /// Group g owns the children `starts[g]..starts[g + 1]`.
-    starts: Vec<usize>,
+    pub starts: Vec<usize>,
     /// Index into the joint's factors, by child.
-    factor: Vec<usize>,
+    pub factor: Vec<usize>,
 }
 
 /// Buffers of [`Polynomial::jet`], to be used again.
@@ -82,11 +100,6 @@ impl Polynomial {
         self.coefficients.iter().map(size).zip(self.exponents.iter().map(Vec::as_slice))
     }
 
-    /// Whether the joint in `slot` of [`Polynomial::joints`] is prismatic.
-    pub fn is_prismatic(&self, slot: usize) -> bool {
-        self.prismatic[slot]
-    }
-
     /// Value, gradient and Hessian at `q`, which has one entry for each of [`Polynomial::joints`].
     pub fn jet(&self, q: &[f64], scratch: &mut Scratch) -> Jet {
         let k = self.joints.len();
@@ -99,7 +112,8 @@ impl Polynomial {
             climb(level, factors, deeper, below, above);
             std::mem::swap(below, above);
         }
-        unpack(below, k)
+        // Without joints every term is the constant; without terms there is no root.
+        Jet::of(below.iter().map(|c| c[0]), k)
     }
 }
 
@@ -151,7 +165,7 @@ fn fill_factors(factors: &mut Vec<[Complex; 3]>, q: f64, largest: i8, prismatic:
     }
 }
 
-fn times(a: Complex, b: Complex) -> Complex {
+pub(super) fn times(a: Complex, b: Complex) -> Complex {
     [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
 }
 
@@ -195,23 +209,4 @@ fn add(out: &mut [Complex], factor: Complex, child: &[Complex]) {
         out[0] += product[0];
         out[1] += product[1];
     }
-}
-
-fn unpack(root: &[Complex], k: usize) -> Jet {
-    let mut jet = Jet::default();
-    // Without joints every term is the constant; without terms there is no root.
-    let Some(first) = root.first() else { return jet };
-    jet.value = first[0];
-    let mut rest = root[1..].iter().map(|c| c[0]);
-    for i in 0..k {
-        jet.gradient[i] = rest.next().unwrap_or(0.0);
-    }
-    for i in 0..k {
-        for j in i..k {
-            let entry = rest.next().unwrap_or(0.0);
-            jet.hessian[i][j] = entry;
-            jet.hessian[j][i] = entry;
-        }
-    }
-    jet
 }

@@ -1,10 +1,9 @@
-//! One residual over one domain: second-order enclosures of cells, and where f only rises.
+//! One residual over one domain: enclosures of its cells, and where it only rises.
 
+use super::envelope::{Enclosure, Envelope};
 use super::polynomial::{Jet, Polynomial, Scratch};
-use super::region::{Cell, Frame, MAX_VARIABLES, Region};
-use super::rounding::ENCLOSURE;
+use super::region::{Cell, Frame, Region};
 use super::tensors::Tensors;
-use crate::lagrangian::MAX_JOINTS;
 use crate::measure::Domain;
 use crate::motion::Motion;
 
@@ -13,37 +12,22 @@ use crate::motion::Motion;
 pub struct Residual {
     /// f.
     pub polynomial: Polynomial,
-    /// Bounds on its derivatives.
-    tensors: Tensors,
-    /// Absolute rounding error of any enclosure.
-    rounding: f64,
-}
-
-/// What a cell is known to hold.
-#[derive(Clone, Copy, Debug)]
-pub struct Enclosure {
-    /// f at the centre.
-    pub centre: f64,
-    /// σf exceeds this nowhere in the cell.
-    pub upper: f64,
-    /// The variable whose halving promises most.
-    pub split: usize,
-    /// By variable +1 or −1 where σf only rises or only falls, else 0.
-    pub slope: [i8; MAX_VARIABLES],
+    /// Bounds on |q_j|, one for each of the polynomial's joints.
+    pub reach: Vec<f64>,
+    /// Bounds over the whole domain.
+    envelope: Envelope,
 }
 
 impl Residual {
     /// Prepares `polynomial` for `domain`, in which |q_j| ≤ `reach`.
     pub fn new(polynomial: Polynomial, domain: &Domain, motion: Option<&Motion>, reach: &[f64]) -> Self {
         let reach: Vec<f64> = polynomial.joints.iter().map(|&j| reach[j]).collect();
-        let tensors = Tensors::new(&polynomial, &reach);
+        let tensors = Tensors::new(polynomial.terms(), |slot| polynomial.prismatic[slot], &reach);
         let region = Region::new(domain, motion, &polynomial.joints);
         let widest = region.frame(&region.root).total;
-        let steps: f64 = (0..reach.len()).map(|i| tensors.gradient[i] * (widest[i] + 1.0 + reach[i])).sum();
-        let third = tensors.third(&widest);
-        let cubic: f64 = (0..reach.len()).map(|i| third[i] * widest[i]).sum();
-        let scale = tensors.value + steps + tensors.second(&widest) + cubic;
-        Self { polynomial, tensors, rounding: ENCLOSURE * scale }
+        let slack = vec![0.0; reach.len()];
+        let envelope = Envelope::new(tensors, &widest, &reach, 0.0, slack);
+        Self { polynomial, reach, envelope }
     }
 
     /// The jet at the centre of `frame`.
@@ -51,106 +35,34 @@ impl Residual {
         self.polynomial.jet(&frame.centre[..self.polynomial.joints.len()], scratch)
     }
 
-    /// Encloses σf, σ = `sign`, over the positions of `frame`, given the jet at its centre.
-    ///
-    /// With δ = e + v s + o, |o| ≤ off, f(q + δ) = f + g·δ + ½δᵀHδ + R, |R| ≤ ⅙ Σ T_ijk |δ_iδ_jδ_k|. The linear
-    /// and the square part of each variable are maximised together, so that a cell around an inner maximum has no
-    /// first-order excess; the motion enters by its direction v, so that neither has one in time.
+    /// Encloses σf over the positions of `frame`, given the jet at its centre.
     pub fn enclose(&self, frame: &Frame, jet: &Jet, sign: f64) -> Enclosure {
-        let k = self.polynomial.joints.len();
-        let (w, h, v) = (&frame.width, frame.half, &frame.speed);
-        let third = self.tensors.third(&frame.total[..k]);
-        // What the gradient can change by within the cell, and H v.
-        let mut change = [0.0; MAX_JOINTS];
-        let mut along = [0.0; MAX_JOINTS];
-        for i in 0..k {
-            for j in 0..k {
-                change[i] += jet.hessian[i][j].abs() * frame.total[j];
-                along[i] += jet.hessian[i][j] * v[j];
-            }
-        }
-        let (mut upper, mut linear) = (sign * jet.value, sign * jet.value);
-        let mut score = [0.0; MAX_VARIABLES];
-        let mut slope = [0; MAX_VARIABLES];
-        let (mut time_linear, mut time_square) = (0.0, 0.0);
-        let (mut time_change, mut drift) = (0.0, 0.0);
-        for i in 0..k {
-            let g = sign * jet.gradient[i];
-            time_linear += g * v[i];
-            time_square += sign * along[i] * v[i];
-            drift += (g.abs() + change[i]) * frame.off[i];
-            let gradient_change = change[i] + 0.5 * third[i] + ENCLOSURE * self.tensors.gradient[i];
-            time_change += gradient_change * (v[i].abs() + frame.acceleration[i] * h);
-            time_change += g.abs() * frame.acceleration[i] * h;
-            upper += rise(g, sign * jet.hessian[i][i], w[i]) + third[i] * frame.total[i] / 6.0;
-            linear += g.abs() * w[i];
-            let mut cross = h * along[i].abs();
-            for j in 0..k {
-                if j != i {
-                    cross += 0.5 * jet.hessian[i][j].abs() * w[j];
-                }
-            }
-            upper += w[i] * cross;
-            if w[i] > 0.0 {
-                score[i] = w[i] * (g.abs() + change[i] + h * along[i].abs() + third[i]);
-                slope[i] = steep(g, gradient_change);
-            }
-        }
-        upper += rise(time_linear, time_square, h) + drift;
-        linear += time_linear.abs() * h + drift + 0.5 * self.tensors.second(&frame.total[..k]);
-        if h > 0.0 {
-            let crossing: f64 = (0..k).map(|i| w[i] * along[i].abs() + third[i] * v[i].abs()).sum();
-            score[k] = h * (time_linear.abs() + time_square.abs() * h + crossing) + 2.0 * drift;
-            slope[k] = steep(time_linear, time_change);
-        }
-        let split = (0..=k).fold(0, |best, i| if score[i] > score[best] { i } else { best });
-        let upper = upper.min(linear).min(self.tensors.value) + self.rounding;
-        Enclosure { centre: jet.value, upper, split, slope }
-    }
-
-    /// Encloses σf over `cell`, first shrinking it to the sides on which σf must be largest. `None` where no
-    /// maximum of the whole region can lie in the cell: σf strictly rises beyond one of its inner sides.
-    pub fn narrow(
-        &self,
-        region: &Region,
-        mut cell: Cell,
-        sign: f64,
-        scratch: &mut Scratch,
-    ) -> Option<(Cell, Enclosure)> {
-        loop {
-            let frame = region.frame(&cell);
-            let found = self.enclose(&frame, &self.jet(&frame, scratch), sign);
-            let mut narrowed = false;
-            for i in 0..region.variables() {
-                match found.slope[i] {
-                    1 if cell.high[i] < region.root.high[i] => return None,
-                    -1 if cell.low[i] > region.root.low[i] => return None,
-                    1 => cell.low[i] = cell.high[i],
-                    -1 => cell.high[i] = cell.low[i],
-                    _ => continue,
-                }
-                narrowed = true;
-            }
-            if !narrowed {
-                return Some((cell, found));
-            }
-        }
+        self.envelope.enclose(frame, jet, sign)
     }
 }
 
-/// max of g x + ½ H x² over |x| ≤ w.
-fn rise(g: f64, h: f64, w: f64) -> f64 {
-    let g = g.abs();
-    if h < 0.0 && g < -h * w { 0.5 * g * g / -h } else { (g + 0.5 * h * w) * w }
-}
-
-/// The sign of a slope `g` that can change by at most `change`.
-fn steep(g: f64, change: f64) -> i8 {
-    if g > change {
-        1
-    } else if -g > change {
-        -1
-    } else {
-        0
+/// Encloses a function over `cell` by `enclose`, first shrinking it to the sides on which σf must be largest. `None`
+/// where no maximum of the whole region can lie in the cell: σf strictly rises beyond one of its inner sides.
+pub fn narrow(
+    region: &Region,
+    mut cell: Cell,
+    mut enclose: impl FnMut(&Frame) -> Enclosure,
+) -> Option<(Cell, Enclosure)> {
+    loop {
+        let found = enclose(&region.frame(&cell));
+        let mut narrowed = false;
+        for i in 0..region.variables() {
+            match found.slope[i] {
+                1 if cell.high[i] < region.root.high[i] => return None,
+                -1 if cell.low[i] > region.root.low[i] => return None,
+                1 => cell.low[i] = cell.high[i],
+                -1 => cell.high[i] = cell.low[i],
+                _ => continue,
+            }
+            narrowed = true;
+        }
+        if !narrowed {
+            return Some((cell, found));
+        }
     }
 }

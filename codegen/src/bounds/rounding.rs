@@ -5,14 +5,23 @@
 //! - U, the largest upper bound of any cell, already holds the rounding of its own evaluation: a jet passes each
 //!   term through at most 8 levels of a factor (≤ 4 roundings), a complex product (≤ 4) and a sum (≤ 5 children, at
 //!   most 5 roundings), 104 in all, the enclosure sums at most 600 products of jet, tensor and widths after that.
-//!   [`ENCLOSURE`] = γ_1024 of Σ|c| sup|ψ| and of its derivatives times the widths of the whole domain;
+//!   [`ENCLOSURE`] = γ_1024 of Σ|c| sup|ψ| and of its derivatives times the widths of the whole domain.
+//!   A coefficient of order a of an expansion passes each term through at most 8 levels of a factor (≤ 8 roundings),
+//!   the quotient of its derivative (≤ 10), a complex product (≤ 3), a product (1) and a sum (≤ 5), 216 in all, so it
+//!   errs by ENCLOSURE Σ|c| rate^a/a!; with displacements up to δ that makes ENCLOSURE Σ|c| e^{rate δ} in the value,
+//!   which is added to the remainder, and accordingly in the slopes. What is enclosed from there on is the polynomial
+//!   with the coefficients as computed: its jet takes at most 7 levels of a power (≤ 5 roundings) and a Horner step or
+//!   a sum (≤ 12), 119 in all, under the same [`ENCLOSURE`] of its own Σ|c| |δ|^a;
 //! - E, evaluating α̂_m in generated f64 code: a sine or cosine of a joint errs by 1 ulp, building κ·q from them
 //!   takes at most 4 roundings a joint and power, the sum one a term: γ_{64+ξ} Σ|k̂_l| sup|ψ_l|;
 //! - C, the exact α_m as computed from the arm: the recursion behind each sample (≤ 512 roundings), the transform
 //!   along each axis: γ_1024 Σ|k_l| sup|ψ_l|;
 //! - X, what the expansion dropped as rounding noise: [`Lagrangian::truncation`] times the largest monomial.
+//!
+//! Uncertain parameters add the same three for every ∂α_m/∂u_k and ∂α̂_m/∂u_k, times the largest |u_k|.
 
 use crate::lagrangian::{Combination, Lagrangian};
+use crate::reduction::Reduced;
 
 /// Relative rounding of one enclosure.
 pub const ENCLOSURE: f64 = gamma(1024.0);
@@ -23,18 +32,26 @@ pub const fn gamma(k: f64) -> f64 {
     ku / (1.0 - ku)
 }
 
-/// E + C + X for coefficient `m` with the simplified combination `kept`, where |q_j| ≤ `reach`.
-pub fn published(lagrangian: &Lagrangian, m: usize, kept: &Combination, reach: &[f64]) -> f64 {
+/// E + C + X for coefficient `m` of the simplified model, where |q_j| ≤ `reach`.
+pub fn published(lagrangian: &Lagrangian, m: usize, reduced: &Reduced, reach: &[f64]) -> f64 {
     let size = |l: usize| monomial(lagrangian, l, reach);
     let sum = |terms: &Combination| -> f64 { terms.iter().map(|&(l, k)| k.abs() * size(l)).sum() };
-    let evaluation = gamma(64.0 + kept.len() as f64) * sum(kept);
-    let exact = gamma(1024.0) * sum(&lagrangian.coefficients[m].terms);
     let largest = reach.iter().fold(1.0, |p: f64, &q| p * (q * q).max(1.0));
-    evaluation + exact + lagrangian.truncation * largest
+    let kept = &reduced.combinations[m];
+    let evaluation = |terms: &Combination| gamma(64.0 + terms.len() as f64) * sum(terms);
+    let exact = |terms: &Combination| gamma(1024.0) * sum(terms);
+    let coefficient = &lagrangian.coefficients[m];
+    let own = evaluation(kept) + exact(&coefficient.terms) + lagrangian.truncation * largest;
+    let varied = lagrangian.ranges.iter().enumerate().map(|(k, [low, high])| {
+        let learnt = reduced.variations.get(m).map_or(0.0, |v| evaluation(&v[k]));
+        let rest = exact(&coefficient.variations[k]) + lagrangian.variation_truncation[k] * largest;
+        high.max(-low) * (learnt + rest)
+    });
+    own + varied.sum::<f64>()
 }
 
 /// sup|ψ_l|.
-fn monomial(lagrangian: &Lagrangian, l: usize, reach: &[f64]) -> f64 {
+pub fn monomial(lagrangian: &Lagrangian, l: usize, reach: &[f64]) -> f64 {
     let power = &lagrangian.functions[l].power;
     reach.iter().zip(power).fold(1.0, |p, (&q, &e)| (0..e).fold(p, |p, _| p * q))
 }

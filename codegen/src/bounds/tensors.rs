@@ -1,6 +1,9 @@
 //! Bounds on the derivatives of a combination over its whole domain.
 
-use super::polynomial::Polynomial;
+use crate::lagrangian::MAX_JOINTS;
+
+/// The derivatives of a factor 1.
+const CONSTANT: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 
 /// Σ_l |c_l| sup|∂^a ψ_l| for every partial derivative of order 0 to 3 over a domain with |q_j| ≤ reach_j.
 ///
@@ -19,9 +22,13 @@ pub struct Tensors {
 }
 
 impl Tensors {
-    /// The tensors of `polynomial` where |q_j| ≤ `reach`, one entry for each of its joints.
-    pub fn new(polynomial: &Polynomial, reach: &[f64]) -> Self {
-        let k = polynomial.joints.len();
+    /// The tensors of a sum of terms of the given magnitudes and exponents, where |q_j| ≤ `reach`.
+    pub fn new<'a>(
+        terms: impl Iterator<Item = (f64, &'a [i8])>,
+        prismatic: impl Fn(usize) -> bool,
+        reach: &[f64],
+    ) -> Self {
+        let k = reach.len();
         let mut out = Self {
             joints: k,
             value: 0.0,
@@ -29,11 +36,12 @@ impl Tensors {
             second: vec![0.0; k * k],
             third: vec![0.0; k * k * k],
         };
-        for (size, exponents) in polynomial.terms() {
-            let factors: Vec<[f64; 4]> = (0..k)
-                .map(|slot| derivatives(exponents[slot], polynomial.is_prismatic(slot), reach[slot]))
-                .collect();
-            out.add(size, &factors);
+        for (size, exponents) in terms {
+            let mut factors = [CONSTANT; MAX_JOINTS];
+            for slot in (0..k).filter(|&slot| exponents[slot] != 0) {
+                factors[slot] = derivatives(exponents[slot], prismatic(slot), reach[slot]);
+            }
+            out.add(size, &factors[..k]);
         }
         out.mirror();
         out
@@ -41,16 +49,18 @@ impl Tensors {
 
     fn add(&mut self, size: f64, factors: &[[f64; 4]]) {
         let k = self.joints;
-        let mut order = [0_usize; crate::lagrangian::MAX_JOINTS];
+        let mut order = [0_usize; MAX_JOINTS];
         let product = |order: &[usize]| factors.iter().zip(order).fold(size, |p, (f, &a)| p * f[a]);
         self.value += product(&order);
-        for i in 0..k {
+        // The derivatives of a constant factor add nothing.
+        let varies = |i: usize| factors[i] != CONSTANT;
+        for i in (0..k).filter(|&i| varies(i)) {
             order[i] += 1;
             self.gradient[i] += product(&order);
-            for j in i..k {
+            for j in (i..k).filter(|&j| varies(j)) {
                 order[j] += 1;
                 self.second[i * k + j] += product(&order);
-                for l in j..k {
+                for l in (j..k).filter(|&l| varies(l)) {
                     order[l] += 1;
                     self.third[(i * k + j) * k + l] += product(&order);
                     order[l] -= 1;
@@ -83,9 +93,9 @@ impl Tensors {
     }
 
     /// Σ_jl T_ijl w_j w_l by i: what ∂²/∂s² of ∂f/∂q_i stays below for steps up to `w`.
-    pub fn third(&self, w: &[f64]) -> [f64; crate::lagrangian::MAX_JOINTS] {
+    pub fn third(&self, w: &[f64]) -> [f64; MAX_JOINTS] {
         let k = self.joints;
-        let mut out = [0.0; crate::lagrangian::MAX_JOINTS];
+        let mut out = [0.0; MAX_JOINTS];
         for (i, out) in out.iter_mut().enumerate().take(k) {
             for j in (0..k).filter(|&j| w[j] != 0.0) {
                 let row = &self.third[(i * k + j) * k..(i * k + j + 1) * k];

@@ -1,5 +1,8 @@
 //! Enclosures against dense points.
 
+use super::Effort;
+use super::branch::{halves, maximum};
+use super::expansion::Expander;
 use super::polynomial::{Polynomial, Scratch};
 use super::region::{Cell, Region};
 use super::residual::Residual;
@@ -67,6 +70,7 @@ fn no_point_of_a_cell_exceeds_its_enclosure() {
         let residual = Residual::new(polynomial, &domain, motion, &reach);
         let region = Region::new(&domain, motion, &residual.polynomial.joints);
         let (count, mut scratch) = (region.variables(), Scratch::default());
+        let mut expander = Expander::new(&residual);
         let (cells, inside) = (Spread::new(2 * count), Spread::new(count));
         for index in 0..300 {
             let unit = cells.point(index);
@@ -79,8 +83,19 @@ fn no_point_of_a_cell_exceeds_its_enclosure() {
             }
             let frame = region.frame(&cell);
             let jet = residual.jet(&frame, &mut scratch);
-            let [up, down] = [1.0, -1.0].map(|sign| residual.enclose(&frame, &jet, sign));
-            for point in 0..200 {
+            let direct = [1.0, -1.0].map(|sign| residual.enclose(&frame, &jet, sign));
+            // An expansion holds for its own cell and for any in it.
+            let expansion = expander.expand(&frame, f64::INFINITY).unwrap();
+            let expanded = [1.0, -1.0].map(|sign| expander.enclose(&expansion, &frame, sign));
+            let [_, corner] = halves(&cell, index % count);
+            let [corner, _] = halves(&corner, (index / 3) % count);
+            let part = region.frame(&corner);
+            let nested = [1.0, -1.0].map(|sign| expander.enclose(&expansion, &part, sign));
+            for (cell, [up, down], point) in (0..300).map(|point| match point % 3 {
+                0 => (cell, direct, point),
+                1 => (cell, expanded, point),
+                _ => (corner, nested, point),
+            }) {
                 let u = inside.point(point);
                 let x: Vec<f64> =
                     (0..count).map(|i| cell.low[i] + u[i] * (cell.high[i] - cell.low[i])).collect();
@@ -124,4 +139,76 @@ fn the_excess_over_the_quadratic_falls_with_the_third_power() {
     };
     let (wide, narrow) = (excess(0.04), excess(0.01));
     assert!(narrow > 0.0 && (50.0..80.0).contains(&(wide / narrow)), "{wide} {narrow}");
+}
+
+#[test]
+fn a_joint_maximum_is_the_largest_of_the_separate_ones_for_fewer_boxes() {
+    let motion = motion();
+    let domain = Domain::Tube(vec![0.2; 4]);
+    let reach = super::reach(&domain, Some(&motion));
+    // What uncertain parameters do to a residual: each vertex of their box changes a few of its coefficients, and at
+    // some a joint drops out.
+    let vertex = |bits: usize| {
+        let mut terms = terms();
+        for (l, (_, k)) in terms.iter_mut().enumerate() {
+            *k *= if bits >> (l % 3) & 1 == 1 { 1.0 + 0.1 * l as f64 } else { 1.0 };
+        }
+        if bits == 4 {
+            terms.retain(|(psi, _)| psi.power[2] == 0);
+        }
+        let polynomial = Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k)));
+        Residual::new(polynomial, &domain, Some(&motion), &reach)
+    };
+    let residuals: Vec<Residual> = (0..8).map(vertex).collect();
+    let effort = Effort { boxes: 20_000, ..Effort::default() };
+    let joint = maximum(&residuals, &domain, Some(&motion), &effort, 0.0);
+    let separate: Vec<_> = residuals
+        .iter()
+        .map(|residual| maximum(std::slice::from_ref(residual), &domain, Some(&motion), &effort, 0.0))
+        .collect();
+    let found = separate.iter().map(|proof| proof.found.height).fold(0.0, f64::max);
+    let upper = separate.iter().map(|proof| proof.upper).fold(0.0, f64::max);
+    assert!((joint.found.height - found).abs() <= 1e-3 * found, "{} {found}", joint.found.height);
+    assert!(joint.upper >= found && upper >= joint.found.height);
+    assert!(joint.upper <= (1.0 + effort.tolerance) * joint.found.height);
+    assert!((joint.found.height - separate[joint.residual].found.height).abs() <= 1e-3 * found);
+    let boxes: usize = separate.iter().map(|proof| proof.boxes).sum();
+    assert!(joint.boxes < boxes / 2, "{} of {boxes}", joint.boxes);
+    assert_eq!(maximum(&[], &domain, Some(&motion), &effort, 0.0), super::branch::Proof::default());
+}
+
+#[test]
+fn an_expansion_is_near_the_residual_and_its_bounds_nearer_than_the_residual_s() {
+    let terms = terms();
+    let domain = Domain::Workspace(vec![[-1.0, 1.0]; 4]);
+    let polynomial = Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k)));
+    let residual = Residual::new(polynomial, &domain, None, &[1.0; 4]);
+    let region = Region::new(&domain, None, &residual.polynomial.joints);
+    let (mut expander, mut scratch) = (Expander::new(&residual), Scratch::default());
+    let mut cell = Region::point(&[0.3, -0.4, 0.5, 0.2]);
+    for i in 0..4 {
+        (cell.low[i], cell.high[i]) = (cell.low[i] - 0.03, cell.high[i] + 0.03);
+    }
+    let frame = region.frame(&cell);
+    assert!(expander.expand(&frame, 1e-9).is_none());
+    // With a hair of room all orders are kept, with more the upper ones are not worth their work.
+    for (limit, orders) in [(1e-6, 5), (1e-1, 3)] {
+        let expansion = expander.expand(&frame, limit).unwrap();
+        assert_eq!(expansion.order, orders);
+        for x in [[0.3, -0.4, 0.5, 0.2], [0.32, -0.42, 0.48, 0.21]] {
+            let frame = region.frame(&Region::point(&x));
+            let jet = residual.jet(&frame, &mut scratch);
+            for sign in [1.0, -1.0] {
+                let at = expander.enclose(&expansion, &frame, sign);
+                assert!(at.least <= sign * jet.value && sign * jet.value <= at.upper);
+                assert!(at.upper - at.least <= 2.1 * limit);
+            }
+        }
+        let jet = residual.jet(&frame, &mut scratch);
+        if limit < 1e-4 {
+            let (direct, expanded) =
+                (residual.enclose(&frame, &jet, 1.0), expander.enclose(&expansion, &frame, 1.0));
+            assert!(expanded.upper < direct.upper, "{} {}", expanded.upper, direct.upper);
+        }
+    }
 }

@@ -52,7 +52,7 @@ impl Rates {
     }
 
     /// Ū_m of row `i`: the most that multiplies α_m there, over all its places.
-    fn multipliers(&self, lagrangian: &Lagrangian, i: usize) -> Vec<f64> {
+    pub(crate) fn multipliers(&self, lagrangian: &Lagrangian, i: usize) -> Vec<f64> {
         let (a, v, w) = (&self.reference_acceleration, &self.speed, &self.reference_speed);
         let of = |entry: Entry| match entry {
             Entry::D(r, c) if r == i => a[c],
@@ -89,12 +89,14 @@ pub fn torque_error(
             let separate: f64 = certificates.iter().zip(&multipliers).map(|(c, u)| c.bound * u).sum();
             let mut extra = 0.0;
             let mut parts = Vec::new();
-            for (m, residual) in residuals.iter().enumerate() {
-                let Some(residual) = residual.as_ref().filter(|_| multipliers[m] > 0.0) else { continue };
-                extra +=
-                    multipliers[m] * rounding::published(lagrangian, m, &reduced.combinations[m], &reach);
+            for (m, vertices) in residuals.iter().enumerate() {
+                extra += multipliers[m] * certificates[m].sines;
+                if vertices.is_empty() || multipliers[m] <= 0.0 {
+                    continue;
+                }
+                extra += multipliers[m] * rounding::published(lagrangian, m, reduced, &reach);
                 let cap = certificates[m].bound;
-                parts.push(Part { residual, multiplier: multipliers[m], cap });
+                parts.push(Part { vertices, multiplier: multipliers[m], cap });
             }
             let sum = largest_sum(&parts, &region) + extra;
             (sum.min(separate) * (1.0 + rounding::gamma(1024.0))).next_up()
@@ -115,19 +117,32 @@ pub fn peak_torque(arm: &Arm, motion: &Motion) -> Vec<f64> {
 }
 
 struct Part<'a> {
-    residual: &'a Residual,
+    /// The residual at the vertices of the box of uncertain parameters; |r_m| is the largest of them.
+    vertices: &'a [Residual],
     multiplier: f64,
     cap: f64,
 }
 
 /// An upper bound on max Σ_m |r_m| Ū_m, by best-first branch and bound.
 fn largest_sum(parts: &[Part], region: &Region) -> f64 {
-    let terms: usize = parts.iter().map(|part| part.residual.polynomial.terms().count()).sum();
+    let residuals = parts.iter().flat_map(|part| part.vertices);
+    let terms: usize = residuals.map(|residual| residual.polynomial.terms().count()).sum();
     let budget = (TERMS / terms.max(1)).clamp(16, BOXES);
     let mut scratch = Scratch::default();
     let mut enter = |cell: Cell, number: usize, parent: f64| {
         let (centre, upper, split) = enclose(parts, region, &cell, &mut scratch);
-        (centre, Waiting { upper: upper.min(parent), number, sign: 1.0, split, cell })
+        (
+            centre,
+            Waiting {
+                upper: upper.min(parent),
+                number,
+                residual: 0,
+                sign: 1.0,
+                split,
+                cell,
+                expansion: None,
+            },
+        )
     };
     let mut heap = BinaryHeap::new();
     let (mut found, root) = enter(region.root, 0, f64::INFINITY);
@@ -156,16 +171,21 @@ fn enclose(parts: &[Part], region: &Region, cell: &Cell, scratch: &mut Scratch) 
     let mut votes = [0.0; super::region::MAX_VARIABLES];
     let (mut centre, mut upper) = (0.0, 0.0);
     for part in parts {
-        let joints = &part.residual.polynomial.joints;
-        let frame = whole.only(joints);
-        let jet = part.residual.jet(&frame, scratch);
-        let [rising, falling] = [1.0, -1.0].map(|sign| part.residual.enclose(&frame, &jet, sign));
-        let worse = if rising.upper >= falling.upper { rising } else { falling };
-        let most = worse.upper.min(part.cap);
-        centre += jet.value.abs() * part.multiplier;
-        upper += most * part.multiplier;
-        let variable = joints.get(worse.split).copied().unwrap_or(time);
-        votes[variable] += (worse.upper - jet.value.abs()) * part.multiplier;
+        let (mut here, mut most, mut vote) = (0.0_f64, f64::MIN, time);
+        for residual in part.vertices {
+            let joints = &residual.polynomial.joints;
+            let frame = whole.only(joints);
+            let jet = residual.jet(&frame, scratch);
+            let [rising, falling] = [1.0, -1.0].map(|sign| residual.enclose(&frame, &jet, sign));
+            let worse = if rising.upper >= falling.upper { rising } else { falling };
+            here = here.max(jet.value.abs());
+            if worse.upper > most {
+                (most, vote) = (worse.upper, joints.get(worse.split).copied().unwrap_or(time));
+            }
+        }
+        centre += here * part.multiplier;
+        upper += most.min(part.cap) * part.multiplier;
+        votes[vote] += (most - here) * part.multiplier;
     }
     let splittable = |i: usize| cell.high[i] > cell.low[i];
     let split = (0..region.variables()).fold(0, |best, i| {

@@ -12,8 +12,8 @@ const SLACK: f64 = 1e-9;
 /// Checks period, boundary layer, initial errors, and the gains: W, Pqq, Ω symmetric positive definite, P12 = Pqq⁻¹Ω
 /// symmetric and element-wise nonnegative.
 pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut Faults) {
-    if control.period <= 0.0 {
-        faults.push("control.period", format!("is {}", control.period), "write a number above 0, in s");
+    if let Some(period) = control.period.filter(|period| *period <= 0.0) {
+        faults.push("control.period", format!("is {period}"), "write a number above 0, in s");
     }
     if let Some(layer) = &control.boundary_layer {
         let wanted = "a number above 0, or leave the field out for the sign function";
@@ -25,9 +25,13 @@ pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut F
     entries(position, &initial.position, joints, |v| v >= 0.0, wanted, faults);
     entries(velocity, &initial.velocity, joints, |v| v >= 0.0, wanted, faults);
     delta_c1(control, joints, faults);
-    definite("control.W", &control.w, joints, faults);
-    let pqq = definite("control.Pqq", &control.pqq, joints, faults);
-    let omega = definite("control.Omega", &control.omega, joints, faults);
+    adaptation(control, faults);
+    let mut gain = |field, spec: &Option<MatrixSpec>| {
+        spec.as_ref().and_then(|spec| definite(field, spec, joints, faults))
+    };
+    gain("control.W", &control.w);
+    let pqq = gain("control.Pqq", &control.pqq);
+    let omega = gain("control.Omega", &control.omega);
     if let (Some(pqq), Some(omega)) = (pqq, omega) {
         p12(pqq, &omega, faults);
     }
@@ -35,16 +39,37 @@ pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut F
 
 /// ΔC1 has its place in one variant of one law; whether it is large enough takes the bounds to see.
 fn delta_c1(control: &ControlSpec, joints: Option<usize>, faults: &mut Faults) {
-    if control.law != LawSpec::Report && control.coriolis_term != CoriolisTermSpec::Matrix {
+    if !control.law.has_bracket() && control.coriolis_term != CoriolisTermSpec::Matrix {
         let mend = "remove it, or choose law `report`";
-        faults.push("control.coriolis_term", "goes with law `report` alone", mend);
+        faults.push("control.coriolis_term", "goes with the laws `report` and `adaptive` alone", mend);
     }
     let Some(spec) = &control.delta_c1 else { return };
-    if control.law != LawSpec::Report || control.coriolis_term != CoriolisTermSpec::Matrix {
+    if !control.law.has_bracket() || control.coriolis_term != CoriolisTermSpec::Matrix {
         let mend = "remove it, or choose law `report` with `coriolis_term` `matrix`";
         faults.push("control.delta_c1", "has no place in this law", mend);
     }
     square("control.delta_c1", spec, joints, faults);
+}
+
+/// What is to be learnt takes the intervals that it lies in, and a law that learns.
+fn adaptation(control: &ControlSpec, faults: &mut Faults) {
+    if control.law == LawSpec::Adaptive && control.uncertainty.is_none() {
+        faults.push(
+            "control.uncertainty",
+            "is missing, and law `adaptive` has nothing to learn",
+            "write the intervals of what is uncertain, or take law `report` or `tight`",
+        );
+    }
+    let Some(adaptation) = &control.adaptation else { return };
+    if control.law != LawSpec::Adaptive {
+        faults.push(
+            "control.adaptation",
+            "goes with law `adaptive` alone",
+            "remove it, or choose law `adaptive`",
+        );
+    }
+    let field = "control.adaptation.Ptheta";
+    entries(field, &adaptation.p_theta, None, |v| v > 0.0, "a number above 0", faults);
 }
 
 /// The matrix of a gain, if it is symmetric positive definite and of the right size.

@@ -1,6 +1,7 @@
 //! Whether the numbers of a specification make sense together with its arm.
 
 mod control;
+mod design;
 mod measure;
 mod motion;
 mod shape;
@@ -11,7 +12,8 @@ use crate::arm::{Arm, Built, MOST_JOINTS};
 use crate::error::{Error, Faults};
 use crate::load::{Loaded, load};
 use crate::motion::Motion;
-use crate::spec::{ModelSpec, Spec};
+use crate::sines::{COARSEST, FINEST};
+use crate::spec::{ModelSpec, Spec, TrigSpec};
 
 pub use shape::{matrix, vector};
 
@@ -74,6 +76,14 @@ fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> 
     measure::check(spec, arm, joints, faults);
     if let Some(control) = &spec.control {
         control::check(control, joints, faults);
+        design::check(control, spec, joints, faults);
+    }
+    if let TrigSpec::Table { error } = spec.emit.trig
+        && !(FINEST..=COARSEST).contains(&error)
+    {
+        let mend =
+            format!("write a number from {FINEST:e} to {COARSEST}, or \"polynomial\" in place of the table");
+        faults.push("emit.trig.table.error", format!("is {error}"), mend);
     }
     if let Some(duration) = spec.simulation.duration.filter(|v| *v <= 0.0) {
         faults.push("simulation.duration", format!("is {duration}"), "write a number above 0, in s");

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use super::simulate::simulate_generation;
 use crate::error::Error;
 use crate::load::{Loaded, parse};
 use crate::output::write_if_changed;
 use crate::pipeline::Generation;
 use crate::report::{bounds_table, claims, claims_table, metrics_table, operations_table, plot};
+use crate::simulate::{Scenario, simulate};
 use crate::spec::VectorSpec;
 
 const SPEC: &str = include_str!("../../specs/arm3.json");
@@ -23,7 +23,7 @@ pub(super) fn run() -> Result<String, Error> {
     let sign = Generation::new(loaded.clone())?;
     let layer = Generation::new(with_boundary_layer(loaded))?;
     let joints = &sign.arm.joints;
-    let (without, with) = (simulate_generation(&sign)?, simulate_generation(&layer)?);
+    let (without, with) = (simulate(&Scenario::of(&sign)?)?, simulate(&Scenario::of(&layer)?)?);
 
     let module = folder.join("arm3.rs");
     let picture = folder.join("arm3.svg");

@@ -6,6 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{json, show_warnings};
+use crate::body::Form;
 use crate::bounds::{Bounds, Effort, Rates, estimate, peak_torque, torque_error};
 use crate::design::Envelope;
 use crate::emit::{domain_in_words, verdict};
@@ -14,6 +15,7 @@ use crate::graph::Operations;
 use crate::load::load;
 use crate::measure::Domain;
 use crate::pipeline::Generation;
+use crate::spec::MatrixSpec;
 
 /// Shows the expansion, the chosen functions, bounds, gains and operation counts of a specification.
 #[derive(Debug, Args)]
@@ -44,6 +46,12 @@ struct Inspection<'a> {
     form: &'static str,
     operations: Costs,
     verdict: String,
+    /// The uncertain numbers of inertia, each with its range.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    uncertainty: Vec<RangeView<'a>>,
+    /// What law `adaptive` learns.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    adaptation: Option<AdaptationView<'a>>,
     control: Option<ControlView<'a>>,
     #[serde(flatten)]
     guarantee: Option<GuaranteeView<'a>>,
@@ -57,6 +65,7 @@ struct BoundsView<'a> {
     D: &'a [Vec<f64>],
     H: &'a [Vec<Vec<f64>>],
     G: &'a [f64],
+    B: Vec<Vec<f64>>,
     /// ΔC of equation (30); absent without a controller.
     C: Option<&'a [Vec<f64>]>,
     /// Largest bound/found over the simplified coefficients.
@@ -90,7 +99,33 @@ struct Costs {
 }
 
 #[derive(Serialize)]
+struct RangeView<'a> {
+    name: &'a str,
+    nominal: f64,
+    low: f64,
+    high: f64,
+}
+
+#[derive(Serialize)]
+struct AdaptationView<'a> {
+    /// Parameters θ with their boxes; uncertain numbers count from the arm's own.
+    parameters: Vec<RangeView<'a>>,
+    /// Diagonal of Pθθ⁻¹.
+    rate: &'a [f64],
+    /// Of base and Y together.
+    operations: Operations,
+}
+
+#[derive(Serialize)]
+#[allow(non_snake_case, reason = "the specification's letters are the keys")]
 struct ControlView<'a> {
+    /// The gains, given or found, as a specification takes them.
+    W: MatrixSpec,
+    Pqq: MatrixSpec,
+    Omega: MatrixSpec,
+    /// Absent for the sign function.
+    boundary_layer: Option<&'a [f64]>,
+    period: f64,
     k_star: f64,
     v_max: f64,
     /// What V stays below, J.
@@ -130,6 +165,11 @@ fn view(generation: &Generation) -> Inspection<'_> {
     let control = design.as_ref().map(|design| {
         let Envelope { v_max, level, position_error, velocity_error, speed } = &design.envelope;
         ControlView {
+            W: as_written(&design.w),
+            Pqq: as_written(&design.gains.pqq),
+            Omega: as_written(&design.omega),
+            boundary_layer: design.boundary_layer.as_deref(),
+            period: design.period,
             k_star: design.k_star,
             v_max: *v_max,
             level: *level,
@@ -151,7 +191,15 @@ fn view(generation: &Generation) -> Inspection<'_> {
             inertia_certified: promised.inertia.certified,
         }
     });
+    let uncertainty = generation.uncertainty.parameters.iter().map(|p| RangeView {
+        name: &p.name,
+        nominal: p.nominal,
+        low: p.nominal + p.low,
+        high: p.nominal + p.high,
+    });
     Inspection {
+        uncertainty: uncertainty.collect(),
+        adaptation: adaptation(generation),
         name: &generation.loaded.spec.name,
         joints: arm.dof(),
         joint_names: arm.joints.iter().map(|joint| joint.name.as_str()).collect(),
@@ -164,6 +212,7 @@ fn view(generation: &Generation) -> Inspection<'_> {
             D: &bounds.d,
             H: &bounds.h,
             G: &bounds.g,
+            B: diagonal(&bounds.b),
             C: design.as_ref().map(|design| design.delta_c.as_slice()),
             worst_ratio: generation.certificates.iter().map(|c| c.ratio()).fold(1.0, f64::max),
             estimate: estimated(generation),
@@ -186,10 +235,35 @@ fn view(generation: &Generation) -> Inspection<'_> {
     }
 }
 
+fn adaptation(generation: &Generation) -> Option<AdaptationView<'_>> {
+    let adaptation = generation.design.as_ref()?.adaptation.as_ref()?;
+    let regressor = generation.regressor.as_ref()?;
+    let mut operations = regressor.code.operations();
+    if regressor.own_base {
+        let own = generation.code.operations();
+        operations.mul += own.mul;
+        operations.add += own.add;
+        operations.trig_pairs = operations.trig_pairs.max(own.trig_pairs);
+    }
+    let parameter = |k: usize| RangeView {
+        name: &adaptation.names[k],
+        nominal: adaptation.initial[k],
+        low: adaptation.low[k],
+        high: adaptation.high[k],
+    };
+    let parameters = (0..adaptation.names.len()).map(parameter).collect();
+    Some(AdaptationView { parameters, rate: &adaptation.rate, operations })
+}
+
+fn diagonal(values: &[f64]) -> Vec<Vec<f64>> {
+    let row = |i: usize| (0..values.len()).map(|j| if i == j { values[i] } else { 0.0 }).collect();
+    (0..values.len()).map(row).collect()
+}
+
 fn estimated(generation: &Generation) -> Option<EstimateView> {
     let Generation { lagrangian, reduced, domain, motion, .. } = generation;
     let deltas = estimate(lagrangian, reduced, domain, motion.as_ref())?;
-    let Bounds { d, h, g } = Bounds::new(lagrangian, &deltas);
+    let Bounds { d, h, g, .. } = Bounds::new(lagrangian, &deltas);
     Some(EstimateView { D: d, H: h, G: g })
 }
 
@@ -201,6 +275,9 @@ fn torque(generation: &Generation) -> Option<Vec<f64>> {
         (Domain::Workspace(_), _) | (_, None) => Rates::limits(arm)?,
         (_, Some(motion)) => Rates::of(motion),
     };
+    if generation.form == Form::Recursive {
+        return Some(generation.bounds.torque(&rates));
+    }
     Some(torque_error(lagrangian, reduced, domain, motion, certificates, &rates))
 }
 
@@ -228,7 +305,8 @@ fn text(view: &Inspection, generation: &Generation) -> String {
     lines.push(format!("emitted ({}): {}", view.form, cost(&view.operations.reduced)));
     lines.push(format!("exact:   {}", cost(&view.operations.exact)));
     lines.push(format!("verdict: {}", view.verdict));
-    if !view.selected.is_empty() {
+    let bounded = !view.selected.is_empty() || !generation.code.sines.rounds();
+    if bounded {
         let largest = |values: &mut dyn Iterator<Item = &f64>| values.fold(0.0_f64, |a, &b| a.max(b));
         lines.push(format!(
             "bounds ({}) over {}: dD <= {}, dh <= {}, dG <= {}",
@@ -239,11 +317,19 @@ fn text(view: &Inspection, generation: &Generation) -> String {
             up(largest(&mut view.bounds.G.iter())),
         ));
     }
-    if let Some(torque) = view.torque_error.as_ref().filter(|_| !view.selected.is_empty()) {
+    if let Some(torque) = view.torque_error.as_ref().filter(|_| bounded) {
         let peak = view.peak_torque.as_ref().map_or(String::new(), |peak| format!(" of {}", list(peak)));
         lines.push(format!("torque error (certified) <= {}{peak}", list(torque)));
     }
+    for p in &view.uncertainty {
+        lines.push(format!("uncertain: {} in [{}, {}], here {}", p.name, p.low, p.high, p.nominal));
+    }
+    if let Some(adaptation) = &view.adaptation {
+        let count = adaptation.parameters.len();
+        lines.push(format!("adapts {count} parameters: base and Y in {}", cost(&adaptation.operations)));
+    }
     if let Some(control) = &view.control {
+        lines.push(gains(control));
         lines.push(format!("control: k* = {:.4}, V_max(0) = {:.4} J", control.k_star, control.v_max));
         lines.push(format!(
             "largest errors: position ({}), velocity ({})",
@@ -255,6 +341,33 @@ fn text(view: &Inspection, generation: &Generation) -> String {
         lines.extend(guarantee(promised));
     }
     lines.join("\n") + "\n"
+}
+
+/// A gain as one would write it: its diagonal, where that is all.
+fn as_written(gain: &[Vec<f64>]) -> MatrixSpec {
+    let n = gain.len();
+    let diagonal = (0..n).all(|i| (0..n).all(|j| i == j || gain[i][j] == 0.0));
+    if diagonal {
+        MatrixSpec::Diagonal((0..n).map(|i| gain[i][i]).collect())
+    } else {
+        MatrixSpec::Full(gain.to_vec())
+    }
+}
+
+fn gains(control: &ControlView) -> String {
+    let show = |gain: &MatrixSpec| match gain {
+        MatrixSpec::Scalar(value) => format!("{value:.4}"),
+        MatrixSpec::Diagonal(list) => format!("{list:.4?}"),
+        MatrixSpec::Full(rows) => format!("{rows:.4?}"),
+    };
+    let layer = control.boundary_layer.map_or("none".to_string(), |phi| format!("{phi:.4?}"));
+    format!(
+        "gains: W = {}, Pqq = {}, Omega = {}, boundary layer = {layer}, period = {} s",
+        show(&control.W),
+        show(&control.Pqq),
+        show(&control.Omega),
+        control.period
+    )
 }
 
 fn list(x: &[f64]) -> String {

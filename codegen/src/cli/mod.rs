@@ -4,6 +4,7 @@ mod demo;
 mod evaluate;
 mod generate;
 mod inspect;
+mod reproduce;
 mod simulate;
 
 use std::io::Write;
@@ -31,6 +32,7 @@ enum Command {
     Evaluate(evaluate::Evaluate),
     Generate(generate::Generate),
     Simulate(simulate::Simulate),
+    Reproduce(reproduce::Reproduce),
     /// Prints the JSON Schema of specification files.
     Schema,
 }
@@ -43,6 +45,7 @@ pub fn run() -> ExitCode {
         Some(Command::Evaluate(command)) => command.run(),
         Some(Command::Generate(command)) => command.run(),
         Some(Command::Simulate(command)) => command.run(),
+        Some(Command::Reproduce(command)) => command.run(),
         Some(Command::Schema) => json(&crate::load::schema()),
     };
     match outcome {

@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::output::write_if_changed;
 use crate::pipeline::Generation;
 use crate::report::{metrics_table, plot};
-use crate::simulate::{Comparison, Metrics, Scenario, simulate};
+use crate::simulate::{Metrics, Scenario, simulate};
 use crate::spec::LawSpec;
 
 /// Simulates the exact arm under equation (16) with the exact model, and under the specification's law.
@@ -38,7 +38,7 @@ impl Simulate {
     pub(super) fn run(&self) -> Result<String, Error> {
         let generation = Generation::from_file(&self.spec)?;
         show_warnings(&generation.warnings);
-        let comparison = simulate_generation(&generation)?;
+        let comparison = simulate(&Scenario::of(&generation)?)?;
         let joints = &generation.arm.joints;
         if let Some(path) = &self.plot {
             write_if_changed(path, &plot(&comparison, joints)?)?;
@@ -53,31 +53,4 @@ impl Simulate {
             boundary_layer: &comparison.boundary_layer,
         })
     }
-}
-
-/// Simulates what a specification describes.
-pub(super) fn simulate_generation(generation: &Generation) -> Result<Comparison, Error> {
-    let spec = &generation.loaded.spec;
-    let missing = |field: &str, what: &str| {
-        let mend = format!("add `{field}` to the specification");
-        Error::input(
-            &generation.loaded.path,
-            field,
-            format!("is missing, and a simulation needs {what}"),
-            mend,
-        )
-    };
-    let motion = generation.motion.as_ref().ok_or_else(|| missing("motion", "a desired motion"))?;
-    let control = spec.control.as_ref().ok_or_else(|| missing("control", "a law"))?;
-    let design = generation.design.as_ref().ok_or_else(|| missing("control", "a law"))?;
-    simulate(&Scenario {
-        file: &generation.loaded.path,
-        arm: &generation.arm,
-        motion,
-        design,
-        code: &generation.code,
-        bounds: &generation.bounds,
-        initial: &control.initial_error,
-        simulation: &spec.simulation,
-    })
 }

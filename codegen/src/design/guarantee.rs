@@ -1,5 +1,6 @@
 //! What is promised of the closed loop, and why not where nothing is.
 
+use super::adaptation::{Adaptation, Learning, regression};
 use super::inertia::Inertia;
 use super::reach::{Course, Envelope, InertiaBounds, fastest, inertia_bounds, initial_level, total};
 use super::region::{cells, outside, reach, start, width};
@@ -8,7 +9,6 @@ use crate::arm::Arm;
 use crate::bounds::peak_torque;
 use crate::error::Error;
 use crate::motion::Motion;
-use crate::spec::LawSpec;
 
 /// Halvings of the interval in which the largest initial error lies.
 const HALVINGS: u32 = 30;
@@ -25,8 +25,8 @@ pub struct Guarantee {
     pub holds: bool,
     /// Why not; empty where it holds.
     pub reasons: Vec<String>,
-    /// Longest period with T (λ_max(D⁻¹K) + λ_max(P12)) < 2 over the domain, s; K is the whole gain on s, with ΔC1 and the
-    /// slope ρ/φ inside the layer. The sign function has no slope to count: its chatter counts in `final_error`.
+    /// Longest period with T (λ_max(D⁻¹K) + λ_max(P12)) < 2 over the domain, s; K is the whole gain on s, with ΔC1, the
+    /// slope ρ/φ inside the layer and what is learnt within a period. The sign function has no slope to count: its chatter counts in `final_error`.
     pub period_max: f64,
     /// What |q_e| ends below, by joint, rad or m.
     pub final_error: Vec<f64>,
@@ -46,6 +46,10 @@ pub(super) struct Judgement {
     pub(super) delta_c: Vec<Vec<f64>>,
     pub(super) k_star: f64,
     pub(super) delta_c1: Vec<Vec<f64>>,
+    /// The largest switching gain ρ, N·m or N.
+    pub(super) gain: Vec<f64>,
+    /// Whether some level of V holds it.
+    pub(super) settled: bool,
     pub(super) guarantee: Guarantee,
 }
 
@@ -54,16 +58,19 @@ pub(super) struct Parts<'a> {
     pub(super) gains: &'a super::Gains,
     pub(super) form: super::reach::Form,
     pub(super) disturbance: &'a [f64],
-    pub(super) layer: Option<&'a [f64]>,
+    pub(super) tuning: &'a super::Tuning,
     /// Initial position and velocity error.
     pub(super) initial: [Vec<f64>; 2],
-    pub(super) delta_c1: Option<Vec<Vec<f64>>>,
+    pub(super) adaptation: Option<&'a Adaptation>,
+    pub(super) delta_c1: Option<&'a [Vec<f64>]>,
+    /// Pass over final error, largest initial error and smallest tube, which a comparison of gains does not need.
+    pub(super) sketch: bool,
 }
 
 /// The joints whose torque limit is less than what the desired motion alone takes.
 ///
 /// That no limit cuts in during a transient is not judged: the guarantee supposes it.
-fn beyond_torque_limits(arm: &Arm, motion: &Motion) -> Vec<String> {
+pub(super) fn beyond_torque_limits(arm: &Arm, motion: &Motion) -> Vec<String> {
     let limits = arm.joints.iter().map(|joint| joint.limits.torque);
     (1..)
         .zip(peak_torque(arm, motion).into_iter().zip(limits))
@@ -80,20 +87,21 @@ impl Parts<'_> {
         let n = arm.dof();
         let own = width(domain, n).unwrap_or(vec![0.0; n]);
         let over = cells(domain, motion, &own);
-        let about = |width: &[f64]| Inertia::new(arm, lagrangian, &reach(&cells(domain, motion, width), n));
         let wide: Vec<f64> = own.iter().zip(&self.initial[0]).map(|(a, b)| a.max(*b).max(1.0)).collect();
-        let inertia = about(&wide);
+        let reach = reach(&cells(domain, motion, &wide), n);
+        let inertia = Inertia::of_family(arm, self.problem.uncertainty, lagrangian, &reach);
         let facts = inertia_bounds(&inertia, over.clone(), self.gains, &self.form);
         let [position, velocity] = &self.initial;
         let level = |position: &[f64]| {
             let cell = start(domain, motion, position);
             initial_level(&inertia, self.gains, cell, position, velocity)
         };
-        let course = self.course(&facts);
+        let course = self.course(&facts, &reach)?;
         let v_max = level(position);
-        let settled = course.settle(v_max, position)?;
+        let level_found = course.settle(v_max, position)?;
+        let settled = level_found.is_some();
         let mut reasons = Vec::new();
-        let envelope = match settled {
+        let envelope = match level_found {
             Some(envelope) => envelope,
             None => {
                 reasons.push(
@@ -106,46 +114,50 @@ impl Parts<'_> {
         };
         let delta_c = bounds.coriolis(&envelope.speed);
         let k_star = family::smallest_multiple(&delta_c);
-        let delta_c1 = self.delta_c1.clone().unwrap_or_else(|| family::multiple_of_identity(k_star, n));
+        let delta_c1 =
+            self.delta_c1.map(<[_]>::to_vec).unwrap_or_else(|| family::multiple_of_identity(k_star, n));
 
-        let gain = course.gain(&envelope.position_error, &envelope.velocity_error, &delta_c);
-        let period_max = self.longest_period(&inertia, over, &delta_c1, &gain);
-        let final_error = course.final_error(&envelope, &delta_c)?;
+        let load = course.load(&envelope.position_error, &envelope.velocity_error, &delta_c);
+        let period_max = self.longest_period(&inertia, over.clone(), &delta_c1, &course, &load.gain);
+        let final_error = if self.sketch {
+            envelope.position_error.clone()
+        } else {
+            course.final_error(&inertia, over, &envelope, &delta_c)?
+        };
 
         if !facts.certified {
             reasons.push("the bounds on D over the domain could not be certified".to_string());
         }
-        if control.period >= period_max {
+        if self.tuning.period >= period_max {
             reasons.push(format!(
                 "the period of {} s is longer than the {period_max:.3e} s up to which the sampled loop is stable",
-                control.period
+                self.tuning.period
             ));
         }
         reasons.extend(motion.map_or(Vec::new(), |motion| beyond_torque_limits(arm, motion)));
-        if control.law != LawSpec::Exact && self.layer.is_none() && course.ball(&gain, true) > envelope.level
-        {
+        let chatter = course.ball(&load, true) + course.parameter_energy();
+        if control.law.is_robust() && self.layer().is_none() && chatter > envelope.level {
             reasons.push(format!(
                 "the sign function, held for {} s, may raise V from {:.3e} J to {:.3e} J: take a boundary layer or a shorter period",
-                control.period,
-                envelope.level,
-                course.ball(&gain, true)
+                self.tuning.period, envelope.level, chatter
             ));
         }
         let leaves = outside(domain, motion, arm, &envelope.position_error);
-        let wanted = self.problem.seek_tube || control.require_guarantee;
+        let wanted = !self.sketch && (self.problem.seek_tube || control.require_guarantee);
         let tube_needed = if !facts.certified || !wanted {
             None
         } else if leaves.is_empty() || width(domain, n).is_none() {
             Some(envelope.position_error.clone())
         } else {
-            self.smallest_tube(&inertia, &envelope, position)?
+            self.smallest_tube(&inertia, &envelope, position, &reach)?
         };
         let inside = |share: f64, shape: &[f64]| -> Result<bool, Error> {
             let scaled: Vec<f64> = shape.iter().map(|e| e * share).collect();
             let settled = course.settle(level(&scaled), &scaled)?;
             Ok(settled.is_some_and(|e| outside(domain, motion, arm, &e.position_error).is_empty()))
         };
-        let initial_error_max = largest_share(&shape(position, &own), inside)?;
+        let initial_error_max =
+            if self.sketch { position.clone() } else { largest_share(&shape(position, &own), inside)? };
         if !leaves.is_empty() {
             reasons.push(leaves.join("; "));
         }
@@ -158,15 +170,18 @@ impl Parts<'_> {
             tube_needed,
             inertia: facts,
         };
-        Ok(Judgement { envelope, delta_c, k_star, delta_c1, guarantee })
+        Ok(Judgement { envelope, delta_c, k_star, delta_c1, gain: load.gain, settled, guarantee })
     }
 
-    fn course<'b>(&'b self, inertia: &'b InertiaBounds) -> Course<'b> {
+    fn course<'b>(&'b self, inertia: &'b InertiaBounds, reach: &[f64]) -> Result<Course<'b>, Error> {
         let Problem { arm, motion, bounds, control, .. } = *self.problem;
         let limit = |of: fn(&crate::arm::Limits) -> Option<f64>| -> Vec<f64> {
             arm.joints.iter().map(|joint| of(&joint.limits).unwrap_or(0.0)).collect()
         };
-        Course {
+        let learning = |adaptation| {
+            Ok(Learning::new(adaptation, regression(self.problem)?, self.problem.lagrangian, reach))
+        };
+        Ok(Course {
             law: control.law,
             term: control.coriolis_term,
             gains: self.gains,
@@ -176,10 +191,11 @@ impl Parts<'_> {
             speed: motion.map_or_else(|| limit(|l| l.velocity), |m| m.largest_speed()),
             acceleration: motion.map_or_else(|| limit(|l| l.acceleration), |m| m.largest_acceleration()),
             disturbance: self.disturbance,
-            layer: self.layer,
-            period: control.period,
-            lag: motion.map_or_else(|| vec![0.0; arm.dof()], |m| super::lag(arm, m, control.period)),
-        }
+            layer: self.layer(),
+            period: self.tuning.period,
+            lag: motion.map_or_else(|| vec![0.0; arm.dof()], |m| super::lag(arm, m, self.tuning.period)),
+            learning: self.adaptation.map(learning).transpose()?,
+        })
     }
 
     fn longest_period(
@@ -187,24 +203,36 @@ impl Parts<'_> {
         inertia: &Inertia,
         over: Vec<super::inertia::Cell>,
         delta_c1: &[Vec<f64>],
+        course: &Course,
         gain: &[f64],
     ) -> f64 {
         let control = self.problem.control;
         let n = gain.len();
-        let robust = control.law != LawSpec::Exact;
-        let slope: Vec<f64> = match self.layer {
-            Some(phi) if robust => gain.iter().zip(phi).map(|(rho, phi)| rho / phi).collect(),
+        let mut slope: Vec<f64> = match self.layer() {
+            Some(phi) if control.law.is_robust() => {
+                gain.iter().zip(phi).map(|(rho, phi)| rho / phi).collect()
+            }
             _ => vec![0.0; n],
         };
+        if let Some(learning) = &course.learning {
+            // Stability of small motions: what learning does in large ones counts in the ball.
+            let (rates, _) = course.rates(&vec![0.0; n], &vec![0.0; n]);
+            let more = learning.gain(&rates, self.tuning.period);
+            slope.iter_mut().zip(more).for_each(|(slope, more)| *slope += more);
+        }
         let zero = vec![vec![0.0; n]; n];
         let more = if self.has_matrix() { delta_c1 } else { &zero };
         let pull = super::linalg::symmetric_eigenvalues(&self.gains.p12).last().copied().unwrap_or(0.0);
         2.0 / (fastest(inertia, over, &total(&self.gains.damping, more, &slope)) + pull)
     }
 
+    fn layer(&self) -> Option<&[f64]> {
+        self.tuning.boundary_layer.as_deref()
+    }
+
     fn has_matrix(&self) -> bool {
         let control = self.problem.control;
-        control.law == LawSpec::Report && control.coriolis_term == crate::spec::CoriolisTermSpec::Matrix
+        control.law.has_bracket() && control.coriolis_term == crate::spec::CoriolisTermSpec::Matrix
     }
 
     /// Widens the tube to the errors of the one before until it holds them.
@@ -213,12 +241,15 @@ impl Parts<'_> {
         inertia: &Inertia,
         envelope: &Envelope,
         start: &[f64],
+        reach: &[f64],
     ) -> Result<Option<Vec<f64>>, Error> {
         let Problem { domain, motion, .. } = *self.problem;
         let mut tube = envelope.position_error.clone();
         for _ in 0..ROUNDS {
             let facts = inertia_bounds(inertia, cells(domain, motion, &tube), self.gains, &self.form);
-            let Some(next) = self.course(&facts).settle(envelope.v_max, start)? else { return Ok(None) };
+            let Some(next) = self.course(&facts, reach)?.settle(envelope.v_max, start)? else {
+                return Ok(None);
+            };
             let next = next.position_error;
             if facts.certified && next.iter().zip(&tube).all(|(a, b)| *a <= b * (1.0 + 1e-9)) {
                 return Ok(Some(next));

@@ -8,9 +8,10 @@
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use crate::arm::Arm;
+use crate::arm::{Arm, Uncertainty};
 use crate::dynamics::{coriolis, mass_matrix};
 use crate::lagrangian::{Entry, Function, Lagrangian};
+use crate::reduction::plus;
 
 /// A direction whose slope is below this fraction of D counts as remainder, which halves the vertices.
 const FLAT: f64 = 0.003;
@@ -35,14 +36,20 @@ pub struct Extremes {
     pub seen: Vec<f64>,
 }
 
-/// D over boxes.
-pub struct Inertia<'a> {
-    arm: &'a Arm,
+/// D over boxes, for every arm of a family.
+pub struct Inertia {
+    members: Vec<Member>,
+}
+
+/// One arm.
+struct Member {
+    arm: Arm,
     /// max|∂_k∂_l d_ij| at \[k n + l\]\[i n + j\].
     curvature: Vec<Vec<f64>>,
 }
 
 struct Judged {
+    member: usize,
     cell: Cell,
     bound: Vec<f64>,
     seen: Vec<f64>,
@@ -50,9 +57,8 @@ struct Judged {
     vertices: usize,
 }
 
-impl<'a> Inertia<'a> {
-    /// For cells inside |q_j| ≤ `reach`\[j\]; the reach matters for prismatic joints alone.
-    pub fn new(arm: &'a Arm, lagrangian: &Lagrangian, reach: &[f64]) -> Self {
+impl Member {
+    fn new(arm: Arm, lagrangian: &Lagrangian, u: &[f64], reach: &[f64]) -> Self {
         let n = arm.dof();
         let largest = |psi: &Function| -> f64 {
             psi.power.iter().zip(reach).map(|(&p, q)| (0..p).fold(1.0, |m, _| m * q)).product()
@@ -65,19 +71,35 @@ impl<'a> Inertia<'a> {
         };
         let mut curvature = vec![vec![0.0; n * n]; n * n];
         for coefficient in &lagrangian.coefficients {
+            let varied = u.iter().zip(&coefficient.variations);
+            let terms = varied.fold(coefficient.terms.clone(), |sum, (&u, v)| plus(&sum, u, v));
             for place in &coefficient.places {
                 let Entry::D(i, j) = place.entry else { continue };
                 for (index, entries) in curvature.iter_mut().enumerate() {
                     let bend = |(psi, value): &(usize, f64)| {
                         value.abs() * second(&lagrangian.functions[*psi], index / n, index % n)
                     };
-                    let sum: f64 = coefficient.terms.iter().map(bend).sum();
+                    let sum: f64 = terms.iter().map(bend).sum();
                     entries[i * n + j] = sum;
                     entries[j * n + i] = sum;
                 }
             }
         }
         Self { arm, curvature }
+    }
+}
+
+impl Inertia {
+    /// For cells inside |q_j| ≤ `reach`\[j\]; the reach matters for prismatic joints alone.
+    pub fn new(arm: &Arm, lagrangian: &Lagrangian, reach: &[f64]) -> Self {
+        Self { members: vec![Member::new(arm.clone(), lagrangian, &[], reach)] }
+    }
+
+    /// The same for every arm that `uncertainty` allows: D is affine in the uncertain parameters, so what is convex in D
+    /// is largest at vertices of their box.
+    pub fn of_family(arm: &Arm, uncertainty: &Uncertainty, lagrangian: &Lagrangian, reach: &[f64]) -> Self {
+        let member = |u: Vec<f64>| Member::new(uncertainty.at(arm, &u), lagrangian, &u, reach);
+        Self { members: uncertainty.extreme_vertices().into_par_iter().map(member).collect() }
     }
 
     /// The largest values over `cells` of the entries of `f`, each relative to what is attained within `tolerance` or
@@ -92,7 +114,11 @@ impl<'a> Inertia<'a> {
         budget: usize,
         f: impl Fn(&DMatrix<f64>, &DMatrix<f64>) -> Vec<f64> + Sync,
     ) -> Extremes {
-        let mut judged: Vec<Judged> = cells.into_par_iter().map(|cell| self.judge(cell, &f)).collect();
+        let pairs: Vec<(usize, Cell)> = (0..self.members.len())
+            .flat_map(|member| cells.iter().map(move |c| (member, c.clone())))
+            .collect();
+        let mut judged: Vec<Judged> =
+            pairs.into_par_iter().map(|(member, cell)| self.judge(member, cell, &f)).collect();
         let mut spent: usize = judged.iter().map(|j| j.vertices).sum();
         loop {
             let seen = fold(&judged, |j| &j.seen);
@@ -120,16 +146,23 @@ impl<'a> Inertia<'a> {
                 planned += 2 * parent.vertices;
                 children.extend(halves(&parent));
             }
-            let children: Vec<Judged> =
-                children.into_par_iter().map(|(cell, bound)| self.judge(cell, &f).within(&bound)).collect();
+            let judge =
+                |(member, cell, bound): (usize, Cell, Vec<f64>)| self.judge(member, cell, &f).within(&bound);
+            let children: Vec<Judged> = children.into_par_iter().map(judge).collect();
             spent += children.iter().map(|j| j.vertices).sum::<usize>();
             judged.extend(children);
         }
     }
 
-    fn judge(&self, cell: Cell, f: &impl Fn(&DMatrix<f64>, &DMatrix<f64>) -> Vec<f64>) -> Judged {
-        let n = self.arm.dof();
-        let rows = mass_matrix(self.arm, &cell.centre);
+    fn judge(
+        &self,
+        member: usize,
+        cell: Cell,
+        f: &impl Fn(&DMatrix<f64>, &DMatrix<f64>) -> Vec<f64>,
+    ) -> Judged {
+        let Member { arm, curvature } = &self.members[member];
+        let n = arm.dof();
+        let rows = mass_matrix(arm, &cell.centre);
         let centre = DMatrix::from_fn(n, n, |i, j| 0.5 * (rows[i][j] + rows[j][i]));
         let scale = |i: usize, j: usize| libm::sqrt(centre[(i, i)] * centre[(j, j)]);
         let mut rest = DMatrix::from_fn(n, n, |i, j| ROUNDING * scale(i, j));
@@ -140,11 +173,11 @@ impl<'a> Inertia<'a> {
                 continue;
             }
             let unit: Vec<f64> = (0..n).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
-            let c = coriolis(self.arm, &cell.centre, &unit);
+            let c = coriolis(arm, &cell.centre, &unit);
             // ∂_k d_ij = h_ijk + h_jik.
             let slope = DMatrix::from_fn(n, n, |i, j| cell.half[k] * (c[i][j] + c[j][i]));
             let bend = DMatrix::from_fn(n, n, |i, j| {
-                let with = |l: usize| self.curvature[k * n + l][i * n + j] * cell.half[l];
+                let with = |l: usize| curvature[k * n + l][i * n + j] * cell.half[l];
                 0.5 * cell.half[k] * (0..n).map(with).sum::<f64>()
             });
             let size = |m: &DMatrix<f64>| -> f64 {
@@ -175,7 +208,7 @@ impl<'a> Inertia<'a> {
             let values = f(&(&d - &margin), &(&d + &margin));
             bound = if bound.is_empty() { values } else { larger(&bound, &values) };
         }
-        Judged { seen: f(&centre, &centre), bound, cell, split, vertices }
+        Judged { seen: f(&centre, &centre), member, bound, cell, split, vertices }
     }
 }
 
@@ -187,13 +220,13 @@ impl Judged {
     }
 }
 
-fn halves(parent: &Judged) -> Vec<(Cell, Vec<f64>)> {
+fn halves(parent: &Judged) -> Vec<(usize, Cell, Vec<f64>)> {
     let k = parent.split;
     let side = |sign: f64| {
         let mut cell = parent.cell.clone();
         cell.half[k] *= 0.5;
         cell.centre[k] += sign * cell.half[k];
-        (cell, parent.bound.clone())
+        (parent.member, cell, parent.bound.clone())
     };
     vec![side(-1.0), side(1.0)]
 }

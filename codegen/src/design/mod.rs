@@ -1,5 +1,6 @@
 //! The numbers of the tracking law and what they promise: gains, ΔC, ΔC1, switching, limits, guarantee.
 
+mod adaptation;
 mod family;
 mod gains;
 mod guarantee;
@@ -7,18 +8,24 @@ mod inertia;
 mod linalg;
 mod reach;
 mod region;
+mod rest;
+mod search;
 #[cfg(test)]
 mod tests;
+mod tuning;
+mod wish;
 
 use std::path::Path;
 
+pub use adaptation::Adaptation;
 pub use family::{least_eigenvalue, outweighs, smallest_multiple};
 pub use gains::Gains;
 pub use guarantee::Guarantee;
 pub use inertia::{Cell, Extremes, Inertia};
 pub use reach::{Envelope, InertiaBounds};
+pub use tuning::Tuning;
 
-use crate::arm::Arm;
+use crate::arm::{Arm, Uncertainty};
 use crate::bounds::Bounds;
 use crate::check::{matrix, vector};
 use crate::dynamics::inverse_dynamics;
@@ -26,6 +33,7 @@ use crate::error::{Error, Faults};
 use crate::lagrangian::Lagrangian;
 use crate::measure::Domain;
 use crate::motion::Motion;
+use crate::reduction::Regression;
 use crate::spec::{ControlSpec, CoriolisTermSpec, LawSpec, OnFaultSpec};
 
 /// Everything a controller needs beside its model.
@@ -35,6 +43,10 @@ pub struct Design {
     pub law: LawSpec,
     /// P12, K and Pqq.
     pub gains: Gains,
+    /// W of equation (16), n×n, N·m·s/rad.
+    pub w: Vec<Vec<f64>>,
+    /// Ω of equation (16), n×n, N·m/(rad·s).
+    pub omega: Vec<Vec<f64>>,
     /// What the errors and speeds stay below, given the initial error.
     pub envelope: Envelope,
     /// ΔC of equation (30), n×n, N·m·s/rad.
@@ -57,6 +69,8 @@ pub struct Design {
     pub coulomb: Vec<[f64; 2]>,
     /// What to command when a measurement is not finite.
     pub on_fault: OnFaultSpec,
+    /// What law `adaptive` learns.
+    pub adaptation: Option<Adaptation>,
     /// What all that promises.
     pub guarantee: Guarantee,
 }
@@ -78,6 +92,10 @@ pub struct Problem<'a> {
     pub domain: &'a Domain,
     /// The desired motion.
     pub motion: Option<&'a Motion>,
+    /// All arms that the law must bear.
+    pub uncertainty: &'a Uncertainty,
+    /// The parameters of a law that learns.
+    pub regression: Option<&'a Regression>,
     /// Whether to seek the smallest sufficient tube even where no guarantee is required.
     pub seek_tube: bool,
 }
@@ -90,58 +108,97 @@ pub struct Problem<'a> {
 pub fn design(problem: &Problem) -> Result<Design, Error> {
     let Problem { file, control, arm, .. } = *problem;
     let n = arm.dof();
-    let gains = Gains::new(control, n)?;
+    let stage = Stage::new(problem)?;
+    let tuning = match &control.design {
+        Some(wish) => wish::tune(&stage, wish)?,
+        None => Tuning::given(control, n)?,
+    };
     let coulomb = |joint: &crate::arm::Joint| {
         if control.compensate_coulomb { joint.coulomb_friction } else { [0.0; 2] }
     };
-    let disturbance = |joint: &crate::arm::Joint| {
-        let [forwards, backwards] = joint.coulomb_friction;
-        // Compensated for the wrong direction, it counts in full from one side to the other.
-        if control.compensate_coulomb { forwards - backwards } else { forwards.max(-backwards) }
-    };
-    let disturbance: Vec<f64> = arm.joints.iter().map(disturbance).collect();
-    let layer = |phi| checked("control.boundary_layer", vector(phi, n));
-    let boundary_layer = control.boundary_layer.as_ref().map(layer).transpose()?;
-    let form = if gains.is_finite() { reach::Form::new(&gains) } else { None };
-    let form = form.ok_or_else(|| {
-        let problem = "gives gains that overflow, or are too far apart to compute with";
-        Error::input(file, "control", problem, "write W, Pqq and Omega in SI units")
-    })?;
-    let initial = &control.initial_error;
-    let given = |m| checked("control.delta_c1", matrix(m, n));
-    let judgement = guarantee::Parts {
-        problem,
-        gains: &gains,
-        form,
-        disturbance: &disturbance,
-        layer: boundary_layer.as_deref(),
-        initial: [
-            checked("control.initial_error.position", vector(&initial.position, n))?,
-            checked("control.initial_error.velocity", vector(&initial.velocity, n))?,
-        ],
-        delta_c1: control.delta_c1.as_ref().map(given).transpose()?,
-    }
-    .judge()?;
-    let guarantee::Judgement { envelope, delta_c, k_star, delta_c1, guarantee } = judgement;
+    let (gains, judgement) = stage.judge(&tuning, false)?;
+    let guarantee::Judgement { envelope, delta_c, k_star, delta_c1, guarantee, .. } = judgement;
     let design = Design {
         law: control.law,
         gains,
+        w: tuning.w,
+        omega: tuning.omega,
         envelope,
         delta_c,
         k_star,
         coriolis_term: control.coriolis_term,
         delta_c1,
-        disturbance,
-        boundary_layer,
-        period: control.period,
+        disturbance: stage.disturbance,
+        boundary_layer: tuning.boundary_layer,
+        period: tuning.period,
         torque_limit: arm.joints.iter().map(|joint| joint.limits.torque).collect(),
         coulomb: arm.joints.iter().map(coulomb).collect(),
         on_fault: control.on_fault,
+        adaptation: stage.adaptation,
         guarantee,
     };
     let mut faults = Faults::of(file);
     design.check(control, &mut faults);
     faults.finish(design)
+}
+
+/// What gains are judged against.
+struct Stage<'a> {
+    problem: &'a Problem<'a>,
+    adaptation: Option<Adaptation>,
+    /// Bound on the Coulomb friction that the command does not cancel, by joint, N·m or N.
+    disturbance: Vec<f64>,
+    /// Initial position and velocity error.
+    initial: [Vec<f64>; 2],
+    delta_c1: Option<Vec<Vec<f64>>>,
+}
+
+impl<'a> Stage<'a> {
+    fn new(problem: &'a Problem<'a>) -> Result<Self, Error> {
+        let Problem { control, arm, .. } = *problem;
+        let n = arm.dof();
+        let disturbance = |joint: &crate::arm::Joint| {
+            let [forwards, backwards] = joint.coulomb_friction;
+            // Compensated for the wrong direction, it counts in full from one side to the other.
+            if control.compensate_coulomb { forwards - backwards } else { forwards.max(-backwards) }
+        };
+        let initial = &control.initial_error;
+        let given = |m| checked("control.delta_c1", matrix(m, n));
+        Ok(Self {
+            problem,
+            adaptation: Adaptation::new(problem)?,
+            disturbance: arm.joints.iter().map(disturbance).collect(),
+            initial: [
+                checked("control.initial_error.position", vector(&initial.position, n))?,
+                checked("control.initial_error.velocity", vector(&initial.velocity, n))?,
+            ],
+            delta_c1: control.delta_c1.as_ref().map(given).transpose()?,
+        })
+    }
+
+    /// The gain matrices of `tuning` and what they promise; a `sketch` passes over what a comparison of gains
+    /// does not need.
+    fn judge(&self, tuning: &Tuning, sketch: bool) -> Result<(Gains, guarantee::Judgement), Error> {
+        let gains = Gains::new(tuning);
+        let form = if gains.is_finite() { reach::Form::new(&gains) } else { None };
+        let form = form.ok_or_else(|| {
+            let problem = "gives gains that overflow, or are too far apart to compute with";
+            Error::input(self.problem.file, "control", problem, "write W, Pqq and Omega in SI units")
+        })?;
+        let judgement = guarantee::Parts {
+            problem: self.problem,
+            gains: &gains,
+            form,
+            disturbance: &self.disturbance,
+            tuning,
+            initial: self.initial.clone(),
+            delta_c1: self.delta_c1.as_deref(),
+            adaptation: self.adaptation.as_ref(),
+            sketch,
+        }
+        .judge()?;
+        Ok((gains, judgement))
+    }
 }
 
 impl Design {
@@ -167,12 +224,12 @@ impl Design {
             );
         }
         let promised = &self.guarantee;
-        if control.period >= promised.period_max && !control.allow_long_period {
+        if self.period >= promised.period_max && !control.allow_long_period {
             faults.push(
                 "control.period",
                 format!(
                     "is {} s, and the sampled loop is stable only below {:.4e} s",
-                    control.period, promised.period_max
+                    self.period, promised.period_max
                 ),
                 "shorten it, lower W, widen the boundary layer, or set `control.allow_long_period` and lose the guarantee",
             );

@@ -2,17 +2,18 @@
 
 use nalgebra::DMatrix;
 
+use super::adaptation::Learning;
 use super::gains::Gains;
 use super::inertia::{Cell, Inertia};
 use super::linalg::{dense, inverse, rows};
-use crate::bounds::Bounds;
+use crate::bounds::{Bounds, Rates};
 use crate::error::Error;
 use crate::spec::{CoriolisTermSpec, LawSpec};
 
 /// Relative gap at which the search for extremes of D ends.
-const TOLERANCE: f64 = 0.05;
+pub(super) const TOLERANCE: f64 = 0.05;
 /// Vertices at which a search over a domain may look, for an arm of one joint; the cost of each grows with n².
-const BUDGET: usize = 200_000;
+pub(super) const BUDGET: usize = 200_000;
 /// The same for the positions about the start.
 const START_BUDGET: usize = 2_000;
 /// Rounds in which the level of V must settle.
@@ -44,6 +45,16 @@ pub struct Envelope {
     pub velocity_error: Vec<f64>,
     /// Largest |q̇| = largest |q̇_d| + largest |q̇_e|, for equation (30).
     pub speed: Vec<f64>,
+}
+
+/// What works against the law while the errors stay below some bounds.
+pub(super) struct Load {
+    /// The largest switching gain ρ, N·m; for law (16) what the model leaves out.
+    pub(super) gain: Vec<f64>,
+    /// sup|Yθ_e|, N·m: what a layer that teaches nothing leaves of the wrong parameters.
+    pub(super) taught: Vec<f64>,
+    /// The part of zᵀMz that the Euler steps of the learning take back.
+    step: f64,
 }
 
 /// M of equation (17), inverted, with what follows from it.
@@ -115,6 +126,8 @@ pub(super) struct Course<'a> {
     pub(super) period: f64,
     /// Change of the feedforward torque during one period.
     pub(super) lag: Vec<f64>,
+    /// What the law learns.
+    pub(super) learning: Option<Learning<'a>>,
 }
 
 impl Course<'_> {
@@ -143,60 +156,105 @@ impl Course<'_> {
         Ok((position, velocity))
     }
 
-    /// The largest switching gain ρ for errors up to these, N·m; for law (16) what the model leaves out.
-    pub(super) fn gain(&self, position: &[f64], velocity: &[f64], delta_c: &[Vec<f64>]) -> Vec<f64> {
+    /// The largest rates that multiply the model while the errors stay below these, and the largest |s|.
+    pub(super) fn rates(&self, position: &[f64], velocity: &[f64]) -> (Rates, Vec<f64>) {
         let n = position.len();
         let p12 = &self.gains.p12;
-        let speed: Vec<f64> = self.speed.iter().zip(velocity).map(|(d, e)| d + e).collect();
-        let a_r: Vec<f64> = (0..n).map(|i| self.acceleration[i] + weighed(&p12[i], velocity)).collect();
-        let v_r: Vec<f64> = (0..n).map(|i| self.speed[i] + weighed(&p12[i], position)).collect();
-        let s: Vec<f64> = (0..n).map(|i| velocity[i] + weighed(&p12[i], position)).collect();
-        let coriolis = |i: usize| match (self.law, self.term) {
-            (LawSpec::Report, CoriolisTermSpec::Matrix) => weighed(&delta_c[i], &speed),
-            (LawSpec::Report, CoriolisTermSpec::Switching) => {
-                weighed(&delta_c[i], &speed) + weighed(&delta_c[i], &s)
-            }
-            _ => (0..n).map(|j| weighed(&self.bounds.h[i][j], &speed) * v_r[j]).sum(),
+        let rates = Rates {
+            speed: self.speed.iter().zip(velocity).map(|(d, e)| d + e).collect(),
+            reference_speed: (0..n).map(|i| self.speed[i] + weighed(&p12[i], position)).collect(),
+            reference_acceleration: (0..n)
+                .map(|i| self.acceleration[i] + weighed(&p12[i], velocity))
+                .collect(),
         };
-        (0..n)
-            .map(|i| weighed(&self.bounds.d[i], &a_r) + coriolis(i) + self.bounds.g[i] + self.disturbance[i])
-            .collect()
+        (rates, (0..n).map(|i| velocity[i] + weighed(&p12[i], position)).collect())
     }
 
-    /// The level of V above which V̇ < 0, J, given the gains ρ.
+    /// The load for errors up to these.
+    pub(super) fn load(&self, position: &[f64], velocity: &[f64], delta_c: &[Vec<f64>]) -> Load {
+        let n = position.len();
+        let (rates, s) = self.rates(position, velocity);
+        let Rates { speed, reference_speed: v_r, reference_acceleration: a_r } = &rates;
+        let coriolis = |i: usize| match self.term {
+            CoriolisTermSpec::Matrix if self.law.has_bracket() => weighed(&delta_c[i], speed),
+            CoriolisTermSpec::Switching if self.law.has_bracket() => {
+                weighed(&delta_c[i], speed) + weighed(&delta_c[i], &s)
+            }
+            _ => (0..n).map(|j| weighed(&self.bounds.h[i][j], speed) * v_r[j]).sum(),
+        };
+        let friction = |i: usize| self.bounds.b[i] * speed[i] + self.disturbance[i];
+        let gain = (0..n)
+            .map(|i| weighed(&self.bounds.d[i], a_r) + coriolis(i) + self.bounds.g[i] + friction(i))
+            .collect();
+        let learning = self.learning.as_ref();
+        Load {
+            gain,
+            taught: learning.map_or(vec![0.0; n], |learning| learning.torque(&rates)),
+            step: learning.map_or(0.0, |learning| {
+                learning.step(&rates, |i, j| self.form.inverse[(i, j)].abs(), self.period)
+            }),
+        }
+    }
+
+    /// The level of V above which V̇ < 0 (for a law that learns V̇1 < 0), J.
     ///
     /// V̇ ≤ −zᵀMz + c + hᵀ|s| with c = Σρ_iφ_i/4 from the layer and h the torque that nothing outweighs: the lag of a
     /// held torque, and under law (16) the whole error of the model. So V̇ < 0 where √(zᵀMz) > x, x² = c + xη,
-    /// η² = hᵀ|(M⁻¹)_ss|h, and 2V ≤ λ_max(M⁻¹ diag(D, Pqq)) zᵀMz.
-    pub(super) fn ball(&self, gain: &[f64], chatter: bool) -> f64 {
+    /// η² = hᵀ|(M⁻¹)_ss|h, and 2V ≤ λ_max(M⁻¹ diag(D, Pqq)) zᵀMz. Where Euler steps take back a part ε of zᵀMz,
+    /// (1 − ε)x² = c + xη.
+    ///
+    /// A joint inside its layer teaches nothing, so there s_i(Yθ_e)_i stays: with y = sup|Yθ_e|_i the layer costs
+    /// max (ρ + y)|s| − ρs²/φ over |s| ≤ φ, which is φ(ρ + y)²/4ρ, or φy where y > ρ.
+    pub(super) fn ball(&self, load: &Load, chatter: bool) -> f64 {
+        let Load { gain, taught, step } = load;
         let mut c = 0.0;
         let mut h = self.lag.clone();
         match (self.law, self.layer) {
             (LawSpec::Exact, _) => h.iter_mut().zip(gain).for_each(|(h, rho)| *h += rho),
-            (_, Some(phi)) => c = 0.25 * weighed(gain, phi),
-            (_, None) if chatter => {
-                // A held sign is wrong for at most a period, in which it moves s_j by T Σ|D⁻¹|_jk 2ρ_k.
-                let mobility = &self.inertia.mobility;
-                let sum: f64 = gain.iter().zip(mobility).map(|(rho, m)| rho * libm::sqrt(*m)).sum();
-                c = 4.0 * self.period * sum * sum;
+            (_, Some(phi)) => {
+                let cost = |((rho, phi), y): ((&f64, &f64), &f64)| {
+                    if y > rho {
+                        phi * y
+                    } else if *y == 0.0 {
+                        0.25 * (rho * phi)
+                    } else {
+                        0.25 * phi * (rho + y) * (rho + y) / rho
+                    }
+                };
+                c = gain.iter().zip(phi).zip(taught).map(cost).sum::<f64>();
             }
+            (_, None) if chatter => c = self.chatter(gain),
             (_, None) => {}
         }
         let row =
             |i: usize| h.iter().enumerate().map(|(j, h)| self.form.inverse[(i, j)].abs() * h).sum::<f64>();
         let eta = libm::sqrt(h.iter().enumerate().map(|(i, h)| h * row(i)).sum::<f64>());
-        let x = 0.5 * (eta + libm::sqrt(eta * eta + 4.0 * c));
+        let left = 1.0 - step;
+        if left <= 0.0 {
+            return f64::INFINITY;
+        }
+        let x = 0.5 * (eta + libm::sqrt(eta * eta + 4.0 * c * left)) / left;
         0.5 * self.inertia.time * x * x
     }
 
+    /// The power that a held sign function may put into V, W: it is wrong for at most a period, in which it moves s_j
+    /// by T Σ|D⁻¹|_jk 2ρ_k.
+    pub(super) fn chatter(&self, gain: &[f64]) -> f64 {
+        let mobility = &self.inertia.mobility;
+        let sum: f64 = gain.iter().zip(mobility).map(|(rho, m)| rho * libm::sqrt(*m)).sum();
+        4.0 * self.period * sum * sum
+    }
+
     /// The level that V never leaves and what follows, with ΔC of that level; `None` where no level holds it.
+    ///
+    /// V1 = V + ½θ_eᵀPθθθ_e falls wherever V is outside the ball, so V ≤ V1 ≤ max(V1(0), ball + max ½θ_eᵀPθθθ_e).
     pub(super) fn settle(&self, v_max: f64, start: &[f64]) -> Result<Option<Envelope>, Error> {
-        let mut level = v_max;
+        let mut level = v_max + self.learning.as_ref().map_or(0.0, |learning| learning.start);
         for _ in 0..ROUNDS {
             let (position_error, velocity_error) = self.errors(level, start)?;
             let speed: Vec<f64> = self.speed.iter().zip(&velocity_error).map(|(d, e)| d + e).collect();
-            let gain = self.gain(&position_error, &velocity_error, &self.bounds.coriolis(&speed));
-            let ball = self.ball(&gain, false);
+            let load = self.load(&position_error, &velocity_error, &self.bounds.coriolis(&speed));
+            let ball = self.ball(&load, false) + self.parameter_energy();
             if ball <= level {
                 return Ok(Some(Envelope { v_max, level, position_error, velocity_error, speed }));
             }
@@ -209,20 +267,31 @@ impl Course<'_> {
         Ok(None)
     }
 
-    /// |q_e| in the end, equation (17) with a layer: the errors of the last level of V, started from `envelope`.
-    pub(super) fn final_error(&self, envelope: &Envelope, delta_c: &[Vec<f64>]) -> Result<Vec<f64>, Error> {
+    /// max ½θ_eᵀPθθθ_e, J.
+    pub(super) fn parameter_energy(&self) -> f64 {
+        self.learning.as_ref().map_or(0.0, |learning| learning.energy)
+    }
+
+    /// |q_e| and |q̇_e| in the end, equation (17) with a layer: the errors of the last level of V, started from
+    /// `envelope`.
+    pub(super) fn final_errors(
+        &self,
+        envelope: &Envelope,
+        delta_c: &[Vec<f64>],
+    ) -> Result<(Vec<f64>, Vec<f64>), Error> {
         let rest = vec![0.0; self.speed.len()];
         let mut v = envelope.level;
         for _ in 0..ROUNDS {
             let (position, velocity) = self.errors(v, &rest)?;
-            let next = self.ball(&self.gain(&position, &velocity, delta_c), true);
+            let next = self.ball(&self.load(&position, &velocity, delta_c), true) + self.parameter_energy();
             if next >= v * (1.0 - 1e-6) {
                 break;
             }
             v = next;
         }
-        let (position, _) = self.errors(v, &rest)?;
-        Ok(position.iter().zip(&envelope.position_error).map(|(a, b)| a.min(*b)).collect())
+        let (position, velocity) = self.errors(v, &rest)?;
+        let least = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a.min(*b)).collect();
+        Ok((least(&position, &envelope.position_error), least(&velocity, &envelope.velocity_error)))
     }
 }
 
@@ -278,6 +347,6 @@ fn largest_form(m: &DMatrix<f64>, b: &[f64]) -> f64 {
 }
 
 /// Σ |a_i| b_i.
-fn weighed(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn weighed(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a.abs() * b).sum()
 }

@@ -56,11 +56,7 @@ pub(super) fn outside(domain: &Domain, motion: Option<&Motion>, arm: &Arm, error
         return (0..arm.dof()).filter_map(of).collect();
     }
     let Domain::Workspace(limits) = domain else { return Vec::new() };
-    let turns = |i: usize| {
-        arm.joints[i].kind == JointKind::Revolute
-            && arm.joints[i].limits.position.is_none()
-            && limits[i][1] - limits[i][0] >= 2.0 * std::f64::consts::PI * (1.0 - 1e-12)
-    };
+    let turns = |i: usize| turns(arm, limits, i);
     let Some(motion) = motion else {
         return if (0..arm.dof()).all(turns) {
             Vec::new()
@@ -82,6 +78,29 @@ pub(super) fn outside(domain: &Domain, motion: Option<&Motion>, arm: &Arm, error
         })
     };
     (0..arm.dof()).filter_map(of).collect()
+}
+
+/// How far the joints may be off the motion inside the domain, rad or m; a full turn has room for half of one.
+pub(super) fn room(domain: &Domain, motion: Option<&Motion>, arm: &Arm) -> Vec<f64> {
+    let turn = vec![std::f64::consts::PI; arm.dof()];
+    let (limits, motion) = match (domain, motion) {
+        (Domain::Workspace(limits), Some(motion)) => (limits, motion),
+        _ => return width(domain, arm.dof()).unwrap_or(turn),
+    };
+    let path = around(motion, &vec![0.0; arm.dof()]);
+    let of = |i: usize| {
+        let high = path.iter().map(|c| c.centre[i] + c.half[i]).fold(f64::MIN, f64::max);
+        let low = path.iter().map(|c| c.centre[i] - c.half[i]).fold(f64::MAX, f64::min);
+        if turns(arm, limits, i) { turn[i] } else { (limits[i][1] - high).min(low - limits[i][0]) }
+    };
+    (0..arm.dof()).map(of).collect()
+}
+
+/// Whether the box lets revolute joint `i` turn a full circle.
+fn turns(arm: &Arm, limits: &[[f64; 2]], i: usize) -> bool {
+    arm.joints[i].kind == JointKind::Revolute
+        && arm.joints[i].limits.position.is_none()
+        && limits[i][1] - limits[i][0] >= 2.0 * std::f64::consts::PI * (1.0 - 1e-12)
 }
 
 /// Largest |q_j| in the cells.

@@ -44,12 +44,18 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
 }
 
 fn bounds(bounds: &Bounds) -> Result<TokenStream, Error> {
-    let zero = bounds.d.iter().flatten().chain(bounds.h.iter().flatten().flatten()).chain(&bounds.g);
+    let zero = bounds
+        .d
+        .iter()
+        .flatten()
+        .chain(bounds.h.iter().flatten().flatten())
+        .chain(&bounds.b)
+        .chain(&bounds.g);
     if zero.into_iter().all(|&x| x == 0.0) {
         return Ok(quote!(::gramforge_runtime::Bounds::ZERO));
     }
     let d = matrix(&bounds.d)?;
     let h = spaced(bounds.h.iter().map(|plane| matrix(plane)).collect::<Result<Vec<_>, _>>()?);
-    let (b, g) = (vector(&vec![0.0; bounds.g.len()])?, vector(&bounds.g)?);
+    let (b, g) = (vector(&bounds.b)?, vector(&bounds.g)?);
     Ok(quote!(::gramforge_runtime::Bounds { d: #d, h: #h, b: #b, g: #g }))
 }

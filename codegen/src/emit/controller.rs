@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::literal::{count, float, matrix, vector};
 use super::{Module, docs, spaced};
-use crate::design::Design;
+use crate::design::{Adaptation, Design};
 use crate::error::Error;
 use crate::motion::Motion;
 use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec};
@@ -36,7 +36,7 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
         /// Period, torque limits and fault policy.
         pub const SETTINGS: ::gramforge_runtime::Settings<f64, #n> = #settings;
         /// The tracking law with its gains.
-        pub const LAW: ::gramforge_runtime::#law_type<f64, #n> = #law;
+        pub const LAW: ::gramforge_runtime::#law_type = #law;
         #reference
 
         /// The controller: model, law and settings put together.
@@ -44,7 +44,7 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
         /// # Errors
         /// None as generated; names the parameter if a constant above was edited into an impossible one.
         pub fn controller() -> ::core::result::Result<
-            ::gramforge_runtime::Controller<#model, ::gramforge_runtime::#law_type<f64, #n>, #n>,
+            ::gramforge_runtime::Controller<#model, ::gramforge_runtime::#law_type, #n>,
             ::gramforge_runtime::ConfigError,
         > {
             ::gramforge_runtime::Controller::new(#model, LAW, SETTINGS)
@@ -85,37 +85,54 @@ fn law(design: &Design) -> Result<(TokenStream, TokenStream), Error> {
             quote!(::gramforge_runtime::Switching::BoundaryLayer(#phi))
         }
     };
-    Ok(match design.law {
-        LawSpec::Exact => {
-            (quote!(ExactLaw), quote!(::gramforge_runtime::ExactLaw { gains: #gains, coulomb: #coulomb }))
-        }
-        LawSpec::Report => {
-            let delta_c = matrix(&design.delta_c)?;
-            let term = match design.coriolis_term {
-                CoriolisTermSpec::Matrix => {
-                    let delta_c1 = matrix(&design.delta_c1)?;
-                    quote!(::gramforge_runtime::CoriolisTerm::Matrix(#delta_c1))
-                }
-                CoriolisTermSpec::Switching => quote!(::gramforge_runtime::CoriolisTerm::Switching),
-            };
-            let law = quote!(::gramforge_runtime::ReportLaw {
-                gains: #gains,
-                delta_c: #delta_c,
-                coriolis_term: #term,
-                disturbance: #disturbance,
-                switching: #switching,
-                coulomb: #coulomb,
+    let n = count(design.gains.pqq.len());
+    let report = || -> Result<TokenStream, Error> {
+        let delta_c = matrix(&design.delta_c)?;
+        let term = match design.coriolis_term {
+            CoriolisTermSpec::Matrix => {
+                let delta_c1 = matrix(&design.delta_c1)?;
+                quote!(::gramforge_runtime::CoriolisTerm::Matrix(#delta_c1))
+            }
+            CoriolisTermSpec::Switching => quote!(::gramforge_runtime::CoriolisTerm::Switching),
+        };
+        Ok(quote!(::gramforge_runtime::ReportLaw {
+            gains: #gains,
+            delta_c: #delta_c,
+            coriolis_term: #term,
+            disturbance: #disturbance,
+            switching: #switching,
+            coulomb: #coulomb,
+        }))
+    };
+    Ok(match (design.law, &design.adaptation) {
+        (LawSpec::Exact, _) => (
+            quote!(ExactLaw<f64, #n>),
+            quote!(::gramforge_runtime::ExactLaw { gains: #gains, coulomb: #coulomb }),
+        ),
+        (LawSpec::Adaptive, Some(adaptation)) => {
+            let parameters = count(adaptation.rate.len());
+            let robust = report()?;
+            let Adaptation { rate, low, high, initial, .. } = adaptation;
+            let [rate, low, high, initial] = [rate, low, high, initial].map(|x| vector(x));
+            let (rate, low, high, initial) = (rate?, low?, high?, initial?);
+            let law = quote!(::gramforge_runtime::AdaptiveLaw {
+                robust: #robust,
+                rate: #rate,
+                low: #low,
+                high: #high,
+                initial: #initial,
             });
-            (quote!(ReportLaw), law)
+            (quote!(AdaptiveLaw<f64, #n, #parameters>), law)
         }
-        LawSpec::Tight => {
+        (LawSpec::Report | LawSpec::Adaptive, _) => (quote!(ReportLaw<f64, #n>), report()?),
+        (LawSpec::Tight, _) => {
             let law = quote!(::gramforge_runtime::TightLaw {
                 gains: #gains,
                 disturbance: #disturbance,
                 switching: #switching,
                 coulomb: #coulomb,
             });
-            (quote!(TightLaw), law)
+            (quote!(TightLaw<f64, #n>), law)
         }
     })
 }

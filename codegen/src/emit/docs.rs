@@ -1,8 +1,10 @@
 //! Words in a module: the header and the model's documentation.
 
 use super::Module;
+use super::sines::up;
 use crate::design::Guarantee;
 use crate::measure::Domain;
+use crate::sines::{Kind, Sines};
 
 /// Comments above the code. Without time, path or machine, so that the same specification gives the same bytes.
 pub(super) fn header(module: &Module) -> String {
@@ -39,12 +41,23 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     };
     lines.push(format!(" One passivity torque: {}.", cost(&operations)));
     lines.push(String::new());
+    let sines = &module.code.sines;
+    if let Some(line) = taken(sines) {
+        lines.extend([line, String::new()]);
+    }
     if kept > 0 {
         lines.push(format!(" The exact model costs {}: {}", cost(&exact), verdict(&operations, &exact)));
         lines.push(String::new());
         lines.push(format!(
             " Domain of the bounds: {}. They are certified, rounding in f64 included; coefficients that are not \
-             simplified are exact but for rounding and for terms below 1e-12 of the largest, and count as zero.",
+             simplified are exact but for rounding and for terms below 1e-12 of the largest, and count as {}.",
+            domain(module.domain),
+            if sines.rounds() { "zero" } else { "that and the error of the sines" }
+        ));
+    } else if !sines.rounds() {
+        lines.push(format!(
+            " Nothing is left out but terms below 1e-12 of the largest, so the bounds are those of the sines' error. Domain \
+             of the bounds: {}.",
             domain(module.domain)
         ));
     } else {
@@ -54,6 +67,24 @@ pub(super) fn model(module: &Module) -> Vec<String> {
         );
     }
     lines
+}
+
+/// How sines are taken, where it is not the default.
+fn taken(sines: &Sines) -> Option<String> {
+    let way = match sines.kind {
+        Kind::Libm => return None,
+        Kind::Polynomial => "the runtime's polynomials".to_string(),
+        Kind::Table(n) => format!("a table of {n} pairs"),
+        Kind::Std => {
+            let way = "the platform's functions, whose bits differ between machines";
+            return Some(format!(" Sines and cosines: {way}; the bounds suppose errors within 1 ulp."));
+        }
+    };
+    let error = up(sines.error);
+    Some(format!(
+        " Sines and cosines: {way}, off by at most {error:.3e} up to {:.0} rad.",
+        libm::floor(sines.range)
+    ))
 }
 
 /// Documentation of the guarantee, a line each.

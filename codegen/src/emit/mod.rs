@@ -4,6 +4,8 @@ mod constants;
 mod controller;
 mod docs;
 mod literal;
+mod regression;
+mod sines;
 mod statements;
 
 pub(crate) use docs::{domain as domain_in_words, verdict};
@@ -12,7 +14,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
 use crate::arm::Arm;
-use crate::body::Form;
+use crate::body::{Form, Regressor};
 use crate::bounds::Bounds;
 use crate::design::Design;
 use crate::error::Error;
@@ -43,6 +45,8 @@ pub struct Module<'a> {
     pub form: Form,
     /// The torque.
     pub code: &'a Graph,
+    /// The torque as a function of what the law learns.
+    pub regressor: Option<&'a Regressor>,
     /// The cheapest exact torque, for comparison.
     pub exact_code: &'a Graph,
     /// The desired motion.
@@ -63,14 +67,20 @@ pub fn emit(module: &Module) -> Result<String, Error> {
     let docs = docs::model(module);
     let constants = constants::constants(module)?;
     let controller = controller::controller(module, &model)?;
-    let parameters = statements::parameters(module.code);
+    let parameters = statements::parameters(module.code, module.arm.dof());
+    let regression = regression::regression(module, &model)?;
+    let learnt = regression::constants(module)?;
     let body = statements::body(module.code)?;
+    let table = sines::table(&module.code.sines)?;
     let tokens = quote! {
         #(#[doc = #docs])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         pub struct #model;
 
         #constants
+        #learnt
+
+        #table
 
         impl ::gramforge_runtime::Model<#n> for #model {
             type Scalar = f64;
@@ -87,6 +97,8 @@ pub fn emit(module: &Module) -> Result<String, Error> {
                 &BOUNDS
             }
         }
+
+        #regression
 
         #controller
     };

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{literal, spaced};
+use super::{literal, sines, spaced};
 use crate::error::Error;
 use crate::graph::{Graph, Node, NodeId, Variable};
 
@@ -40,8 +40,8 @@ impl Written {
 }
 
 /// The parameters `q, qd, v_r, a_r`, with an underscore where the graph does not use one.
-pub(super) fn parameters(graph: &Graph) -> TokenStream {
-    let n = literal::count(graph.outputs.len());
+pub(super) fn parameters(graph: &Graph, joints: usize) -> TokenStream {
+    let n = literal::count(joints);
     let used = |test: fn(&Node) -> bool| graph.nodes.iter().any(test);
     let q = used(|node| matches!(node, Node::Input(Variable::Q(_)) | Node::Sin(_) | Node::Cos(_)));
     let qd = used(|node| matches!(node, Node::Input(Variable::Qd(_))));
@@ -54,9 +54,16 @@ pub(super) fn parameters(graph: &Graph) -> TokenStream {
 }
 
 /// Statements and the array of results.
+pub(super) fn body(graph: &Graph) -> Result<TokenStream, Error> {
+    let (statements, outputs) = parts(graph)?;
+    let outputs = spaced(outputs);
+    Ok(quote!(#(#statements)* #outputs))
+}
+
+/// Statements and results.
 ///
 /// Operators stand exactly as the graph has them: parentheses keep every rounding in its place.
-pub(super) fn body(graph: &Graph) -> Result<TokenStream, Error> {
+pub(super) fn parts(graph: &Graph) -> Result<(Vec<TokenStream>, Vec<TokenStream>), Error> {
     let uses = graph.uses();
     let mut names = Names::default();
     let mut statements = trigonometry(graph, &mut names);
@@ -75,8 +82,7 @@ pub(super) fn body(graph: &Graph) -> Result<TokenStream, Error> {
         statements.push(quote!(let #ident = #tokens;));
         written.push(Written::atom(quote!(#ident)));
     }
-    let outputs = spaced(graph.outputs.iter().map(|&output| written[output].tokens.clone()));
-    Ok(quote!(#(#statements)* #outputs))
+    Ok((statements, graph.outputs.iter().map(|&output| written[output].tokens.clone()).collect()))
 }
 
 /// One call for each joint whose sine or cosine occurs.
@@ -98,7 +104,8 @@ fn trigonometry(graph: &Graph, names: &mut Names) -> Vec<TokenStream> {
                 if used { quote!(#ident) } else { quote!(_) }
             };
             let (sin, cos, j) = (part(sin, "sin"), part(cos, "cos"), literal::count(j));
-            quote!(let (#sin, #cos) = ::gramforge_runtime::Real::sin_cos(q[#j]);)
+            let call = sines::call(&graph.sines, quote!(q[#j]));
+            quote!(let (#sin, #cos) = #call;)
         })
         .collect()
 }

@@ -7,6 +7,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 use super::Graph;
 use super::node::{Name, Node, NodeId, Variable};
 use crate::dynamics::Scalar;
+use crate::sines::Sines;
 
 /// Collects the nodes of a graph under construction.
 #[derive(Debug, Default)]
@@ -64,7 +65,8 @@ impl Builder {
             }
         }
         let mut new = vec![0; nodes.len()];
-        let mut graph = Graph { nodes: Vec::new(), names: Vec::new(), outputs: Vec::new() };
+        let mut graph =
+            Graph { nodes: Vec::new(), names: Vec::new(), outputs: Vec::new(), sines: Sines::default() };
         for (id, (node, name)) in nodes.into_iter().zip(names).enumerate() {
             if needed[id] {
                 new[id] = graph.nodes.len();

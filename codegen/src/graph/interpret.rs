@@ -1,17 +1,16 @@
 //! Running a graph without compiling it, with the same bits as the generated code.
 
-use gramforge_runtime::Real;
-
 use super::{Graph, Node, Variable};
+use crate::sines::Angle;
 
 impl Graph {
     /// The outputs for given inputs, in the arithmetic of `T`; inputs beyond a slice's end count as 0.
     ///
-    /// Every operation is rounded as the generated code rounds it; sines and cosines come from the
-    /// runtime's [`Real::sin_cos`].
-    pub fn interpret<T: Real>(&self, q: &[T], qd: &[T], v_r: &[T], a_r: &[T]) -> Vec<T> {
+    /// Every operation is rounded as the generated code rounds it; sines and cosines are those of
+    /// [`Graph::sines`].
+    pub fn interpret<T: Angle>(&self, q: &[T], qd: &[T], v_r: &[T], a_r: &[T]) -> Vec<T> {
         let read = |slice: &[T], joint: usize| slice.get(joint).copied().unwrap_or(T::ZERO);
-        let trig: Vec<(T, T)> = q.iter().map(|&q| q.sin_cos()).collect();
+        let trig: Vec<(T, T)> = q.iter().map(|&q| q.sin_cos_by(&self.sines)).collect();
         let mut values: Vec<T> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
             let value = match *node {

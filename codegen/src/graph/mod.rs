@@ -11,6 +11,8 @@ pub use build::{Builder, Expr};
 pub use count::Operations;
 pub use node::{Name, Node, NodeId, Variable};
 
+use crate::sines::Sines;
+
 /// A finished graph.
 ///
 /// Holds: operands come before the nodes that use them; no two nodes are equal; no node is a constant
@@ -24,4 +26,6 @@ pub struct Graph {
     pub names: Vec<Option<Name>>,
     /// The results, in the order the caller gave them.
     pub outputs: Vec<NodeId>,
+    /// How sines and cosines are taken; the builder leaves the default.
+    pub sines: Sines,
 }

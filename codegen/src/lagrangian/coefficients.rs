@@ -26,16 +26,24 @@ pub struct Place {
     pub sign: f64,
 }
 
-/// One distinct coefficient α_m of the model.
+/// One distinct coefficient α_m of the model; with uncertain parameters u it is α_m + Σ_k u_k ∂α_m/∂u_k.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coefficient {
     /// Its terms.
     pub terms: Combination,
+    /// ∂α_m/∂u_k for each uncertain parameter; none where the arm is known.
+    pub variations: Vec<Combination>,
     /// Where it stands.
     pub places: Vec<Place>,
 }
 
 impl Coefficient {
+    /// Number of functions in α_m, whatever the uncertain parameters are.
+    pub fn width(&self) -> usize {
+        let functions = [&self.terms].into_iter().chain(&self.variations).flatten();
+        functions.map(|&(l, _)| l).collect::<BTreeSet<_>>().len()
+    }
+
     /// The first place with sign +1, after which the coefficient is named: `d12`, `h112`, `g3`; `minus_h112`
     /// where it stands with sign −1 only. The same for every reduced model of an arm.
     pub fn name(&self) -> String {
@@ -58,53 +66,75 @@ impl fmt::Display for Entry {
     }
 }
 
-/// Gathers the entries into distinct coefficients and numbers the functions that remain. `truncation` is what the
-/// entries lack already; what twins differ by is added to it.
-pub(super) fn distinct(dof: usize, entries: Vec<(Entry, Expansion)>, truncation: f64) -> Lagrangian {
-    let mut merged: f64 = 0.0;
-    let largest = entries.iter().flat_map(|(_, e)| e.values()).fold(0.0, |m: f64, k| m.max(k.abs()));
-    let mut kept: Vec<(Expansion, Vec<Place>)> = Vec::new();
-    for (entry, expansion) in entries {
-        if expansion.is_empty() {
+/// An entry of the model with its derivatives by the uncertain parameters.
+pub(super) struct Layers {
+    pub entry: Entry,
+    /// At the arm's own parameters first, then by each parameter.
+    pub layers: Vec<Expansion>,
+}
+
+/// Gathers the entries into distinct coefficients and numbers the functions that remain. `truncation` is what each
+/// layer of the entries lacks already; what twins differ by is added to it.
+pub(super) fn distinct(dof: usize, entries: Vec<Layers>, mut truncation: Vec<f64>) -> Lagrangian {
+    let largest: Vec<f64> = (0..truncation.len())
+        .map(|layer| {
+            let values = entries.iter().flat_map(|e| e.layers[layer].values());
+            values.fold(0.0, |m: f64, k| m.max(k.abs()))
+        })
+        .collect();
+    let mut merged = vec![0.0_f64; truncation.len()];
+    let mut kept: Vec<(Vec<Expansion>, Vec<Place>)> = Vec::new();
+    for Layers { entry, layers } in entries {
+        if layers.iter().all(Expansion::is_empty) {
             continue;
         }
         let twin = kept.iter_mut().find_map(|(known, places)| {
-            same_up_to_sign(known, &expansion, largest).map(|sign| (sign, &*known, places))
+            same_up_to_sign(known, &layers, &largest).map(|sign| (sign, &*known, places))
         });
         match twin {
             Some((sign, known, places)) => {
-                merged = merged.max(difference(known, &expansion, sign));
+                for (merged, (a, b)) in merged.iter_mut().zip(known.iter().zip(&layers)) {
+                    *merged = merged.max(difference(a, b, sign));
+                }
                 places.push(Place { entry, sign });
             }
-            None => kept.push((expansion, vec![Place { entry, sign: 1.0 }])),
+            None => kept.push((layers, vec![Place { entry, sign: 1.0 }])),
         }
     }
-    kept.iter_mut().for_each(|(expansion, places)| orient(expansion, places));
-    let functions: BTreeSet<Function> = kept.iter().flat_map(|(e, _)| e.keys().copied()).collect();
+    kept.iter_mut().for_each(|(layers, places)| orient(layers, places));
+    let functions: BTreeSet<Function> =
+        kept.iter().flat_map(|(layers, _)| layers.iter().flat_map(|e| e.keys().copied())).collect();
     let index: BTreeMap<Function, usize> = functions.iter().enumerate().map(|(l, &f)| (f, l)).collect();
+    let combination = |expansion: Expansion| -> Combination {
+        expansion.into_iter().filter_map(|(f, k)| Some((*index.get(&f)?, k))).collect()
+    };
     let coefficients = kept
         .into_iter()
-        .map(|(expansion, places)| Coefficient {
-            terms: expansion.into_iter().filter_map(|(f, k)| Some((*index.get(&f)?, k))).collect(),
-            places,
+        .map(|(layers, places)| {
+            let mut layers = layers.into_iter().map(combination);
+            let terms = layers.next().unwrap_or_default();
+            Coefficient { terms, variations: layers.collect(), places }
         })
         .collect();
+    truncation.iter_mut().zip(merged).for_each(|(lost, merged)| *lost += merged);
     Lagrangian {
         dof,
         functions: functions.into_iter().collect(),
         coefficients,
-        truncation: truncation + merged,
+        truncation: truncation.remove(0),
+        ranges: Vec::new(),
+        variation_truncation: truncation,
     }
 }
 
 /// Turns the coefficient so that its largest term, the first of equal ones, is positive: then sums rarely begin with
 /// a sign, and names do not depend on what a reduction does to the smaller terms.
-fn orient(expansion: &mut Expansion, places: &mut [Place]) {
-    let largest = expansion
-        .values()
-        .fold(0.0, |best: f64, &k| if k.abs() > best.abs() * (1.0 + 1e-9) { k } else { best });
+fn orient(layers: &mut [Expansion], places: &mut [Place]) {
+    let Some(first) = layers.iter().find(|layer| !layer.is_empty()) else { return };
+    let largest =
+        first.values().fold(0.0, |best: f64, &k| if k.abs() > best.abs() * (1.0 + 1e-9) { k } else { best });
     if largest < 0.0 {
-        expansion.values_mut().for_each(|k| *k = -*k);
+        layers.iter_mut().flat_map(|layer| layer.values_mut()).for_each(|k| *k = -*k);
         places.iter_mut().for_each(|place| place.sign = -place.sign);
     }
 }
@@ -116,14 +146,17 @@ fn difference(a: &Expansion, b: &Expansion, sign: f64) -> f64 {
     functions.into_iter().map(|f| (of(a, f) - sign * of(b, f)).abs()).sum()
 }
 
-/// +1 or −1 where `b` is ±`a` to rounding.
-fn same_up_to_sign(a: &Expansion, b: &Expansion, largest: f64) -> Option<f64> {
-    let ((_, first_a), (_, first_b)) = (a.iter().next()?, b.iter().next()?);
-    let sign = if (*first_a < 0.0) == (*first_b < 0.0) { 1.0 } else { -1.0 };
-    let own = a.values().fold(0.0, |m: f64, k| m.max(k.abs()));
-    let tolerance = 1e-13 * largest + 1e-12 * own;
-    let near = |x: &Expansion, y: &Expansion| {
-        x.iter().all(|(f, k)| (k - sign * y.get(f).copied().unwrap_or(0.0)).abs() <= tolerance)
+/// +1 or −1 where every layer of `b` is ± that of `a` to rounding, with the same sign.
+fn same_up_to_sign(a: &[Expansion], b: &[Expansion], largest: &[f64]) -> Option<f64> {
+    let first = |layers: &[Expansion]| layers.iter().find_map(|layer| layer.values().next().copied());
+    let sign = if (first(a)? < 0.0) == (first(b)? < 0.0) { 1.0 } else { -1.0 };
+    let near = |((a, b), largest): ((&Expansion, &Expansion), &f64)| {
+        let own = a.values().fold(0.0, |m: f64, k| m.max(k.abs()));
+        let tolerance = 1e-13 * largest + 1e-12 * own;
+        let within = |x: &Expansion, y: &Expansion| {
+            x.iter().all(|(f, k)| (k - sign * y.get(f).copied().unwrap_or(0.0)).abs() <= tolerance)
+        };
+        within(a, b) && within(b, a)
     };
-    (near(a, b) && near(b, a)).then_some(sign)
+    a.iter().zip(b).zip(largest).all(near).then_some(sign)
 }

@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::Lagrangian;
-use super::coefficients::{Entry, distinct};
+use super::coefficients::{Entry, Layers, distinct};
 use super::function::{Function, MAX_JOINTS};
 use super::transform::{Axis, grid_point, grid_size, transform};
-use crate::arm::{Arm, JointKind};
+use crate::arm::{Arm, Body, JointKind, Uncertainty};
 use crate::dynamics::{gravity, mass_matrix};
 
 /// What is below this fraction of the largest coefficient is rounding error of the transform.
@@ -23,29 +23,61 @@ pub type Expansion = BTreeMap<Function, f64>;
 /// prismatic joint both are polynomials of degree ≤ 2, so sampling and inverting the transform is exact
 /// to rounding. h_ijk = ½(∂d_ij/∂q_k + ∂d_ik/∂q_j − ∂d_jk/∂q_i).
 pub fn expand(arm: &Arm) -> Lagrangian {
+    expand_family(arm, &Uncertainty::default())
+}
+
+/// The same for a family of arms: the model is linear in the inertial parameters, so its derivative by each uncertain
+/// one is the model of an arm that has that parameter alone.
+pub fn expand_family(arm: &Arm, uncertainty: &Uncertainty) -> Lagrangian {
+    let mut layers = vec![entries(arm)];
+    for parameter in &uncertainty.parameters {
+        let mut alone = arm.clone();
+        for joint in &mut alone.joints {
+            (joint.body, joint.armature) = (Body::default(), 0.0);
+        }
+        alone.joints[parameter.joint].body = parameter.body;
+        layers.push(entries(&alone));
+    }
+    let truncation = layers.iter().map(|(_, truncation)| *truncation).collect();
+    let mut columns: Vec<_> = layers.into_iter().map(|(entries, _)| entries.into_iter()).collect();
+    let names: Vec<Entry> = names(arm.dof());
+    let joined = names
+        .into_iter()
+        .map(|entry| Layers { entry, layers: columns.iter_mut().filter_map(Iterator::next).collect() })
+        .collect();
+    let ranges = uncertainty.parameters.iter().map(|p| [p.low, p.high]).collect();
+    Lagrangian { ranges, ..distinct(arm.dof(), joined, truncation) }
+}
+
+/// The entries of the model in the order of [`entries`].
+fn names(n: usize) -> Vec<Entry> {
+    let pairs = |from: usize| (from..n).flat_map(move |j| (j..n).map(move |k| (j, k)));
+    let d = pairs(0).map(|(i, j)| Entry::D(i, j));
+    let h = (0..n).flat_map(|i| pairs(0).map(move |(j, k)| Entry::H(i, j, k)));
+    d.chain(h).chain((0..n).map(Entry::G)).collect()
+}
+
+/// d_ij with i ≤ j, h_ijk with j ≤ k and g_i, and the most that one of them lost.
+fn entries(arm: &Arm) -> (Vec<Expansion>, f64) {
     let n = arm.dof();
     let (d, dropped_d) = expand_mass_matrix(arm);
     let (g, dropped_g) = expand_gravity(arm);
     // h is half the sum of three derivatives, each at most twice what it is taken of.
     let mut truncation = dropped_g.max(3.0 * dropped_d);
-    let mut entries = Vec::new();
-    for i in 0..n {
-        for j in i..n {
-            entries.push((Entry::D(i, j), d[i][j].clone()));
-        }
-    }
     let largest_d = largest(d.iter().flatten());
-    for i in 0..n {
-        for j in 0..n {
-            for k in j..n {
+    let mut entries = Vec::new();
+    for entry in names(n) {
+        entries.push(match entry {
+            Entry::D(i, j) => d[i][j].clone(),
+            Entry::H(i, j, k) => {
                 let (h, dropped) = christoffel(&d, i, j, k, NEGLIGIBLE * largest_d);
                 truncation = truncation.max(3.0 * dropped_d + dropped);
-                entries.push((Entry::H(i, j, k), h));
+                h
             }
-        }
+            Entry::G(i) => g[i].clone(),
+        });
     }
-    entries.extend(g.into_iter().enumerate().map(|(i, g)| (Entry::G(i), g)));
-    distinct(n, entries, truncation)
+    (entries, truncation)
 }
 
 /// D, and the most that an entry lost.

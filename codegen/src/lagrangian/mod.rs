@@ -7,7 +7,7 @@ mod transform;
 mod values;
 
 pub use coefficients::{Coefficient, Entry, Place};
-pub use expand::{Expansion, expand};
+pub use expand::{Expansion, expand, expand_family};
 pub use function::{Function, MAX_JOINTS};
 pub use values::Values;
 
@@ -29,6 +29,10 @@ pub struct Lagrangian {
     pub coefficients: Vec<Coefficient>,
     /// What the expansion dropped as rounding error: no coefficient lost terms whose magnitudes sum to more.
     pub truncation: f64,
+    /// Range [low, high] of each uncertain parameter u_k, which is 0 for the arm's own value; none where it is known.
+    pub ranges: Vec<[f64; 2]>,
+    /// What the derivative by each of these lacks, as `truncation`.
+    pub variation_truncation: Vec<f64>,
 }
 
 impl Lagrangian {

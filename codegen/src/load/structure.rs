@@ -90,7 +90,10 @@ impl<'a> Explainer<'a> {
                 if misspelt(name, error.instance_path(), others) {
                     return;
                 }
-                let wanted = parent.pointer(&format!("/properties/{name}")).unwrap_or(&Value::Null);
+                let wanted = self
+                    .unconditional(error.schema_path())
+                    .pointer(&format!("/properties/{name}"))
+                    .unwrap_or(&Value::Null);
                 let meaning = wanted.get("description").and_then(Value::as_str).unwrap_or_default();
                 let mut mend = format!("write {}", describe(self.schema, wanted));
                 if !meaning.is_empty() {
@@ -155,6 +158,13 @@ impl<'a> Explainer<'a> {
 
     fn wrong(&mut self, field: String, instance: &Value, wanted: String) {
         self.faults.push(field, format!("is {}", show(instance)), format!("write {wanted}"));
+    }
+
+    /// The part of the schema that holds the violated keyword, be it under a condition: `then` describes no fields.
+    fn unconditional(&self, keyword: &Location) -> &'a Value {
+        let (parent, _) = self.asked(keyword);
+        let conditional = keyword.as_str().rsplit_once("/then/").map(|(head, _)| head);
+        conditional.and_then(|head| self.schema.pointer(head)).unwrap_or(parent)
     }
 
     /// The part of the schema that holds the violated keyword, and the keyword's own value.

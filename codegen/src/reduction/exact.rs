@@ -9,5 +9,6 @@ pub fn exact(lagrangian: &Lagrangian) -> Reduced {
         selected: Vec::new(),
         combinations: lagrangian.coefficients.iter().map(|c| c.terms.clone()).collect(),
         simplified: vec![false; lagrangian.coefficients.len()],
+        variations: Vec::new(),
     }
 }

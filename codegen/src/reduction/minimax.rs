@@ -10,7 +10,7 @@ use super::chebyshev::{fit, spanning_points};
 use crate::lagrangian::{Combination, Lagrangian, evaluate};
 
 /// Residuals below this fraction of the coefficient are rounding: nothing to refit.
-const ROUNDING: f64 = 1e-12;
+pub(super) const ROUNDING: f64 = 1e-12;
 
 /// Refits every simplified α̂_m over the functions that were selected so that max |α_m − α̂_m| over `points` is the
 /// least possible, and keeps the parameters it had wherever the new ones are not better at those points.
@@ -19,7 +19,8 @@ pub fn minimax(lagrangian: &Lagrangian, mut reduced: Reduced, points: &[Vec<f64>
     if points.is_empty() || reduced.selected.is_empty() || simplified.is_empty() {
         return reduced;
     }
-    let values = Columns::new(lagrangian, &reduced, &simplified, points);
+    let exact: Vec<&Combination> = simplified.iter().map(|&m| &lagrangian.coefficients[m].terms).collect();
+    let values = Columns::new(lagrangian, &reduced.selected, &exact, points);
     let basis = Basis::new(&values.functions);
     let start = spanning_points(&basis);
     let refitted: Vec<Option<Combination>> = simplified
@@ -48,28 +49,32 @@ pub fn minimax(lagrangian: &Lagrangian, mut reduced: Reduced, points: &[Vec<f64>
 }
 
 /// Values at the points.
-struct Columns {
+pub(super) struct Columns {
     /// One column for each selected function.
-    functions: Vec<Vec<f64>>,
-    /// One column for each simplified coefficient.
-    coefficients: Vec<Vec<f64>>,
+    pub functions: Vec<Vec<f64>>,
+    /// One column for each combination to approximate.
+    pub coefficients: Vec<Vec<f64>>,
 }
 
 impl Columns {
     /// Point by point, because a large arm has too many functions to keep them all at all points.
-    fn new(lagrangian: &Lagrangian, reduced: &Reduced, simplified: &[usize], points: &[Vec<f64>]) -> Self {
+    pub fn new(
+        lagrangian: &Lagrangian,
+        selected: &[usize],
+        combinations: &[&Combination],
+        points: &[Vec<f64>],
+    ) -> Self {
         let rows: Vec<(Vec<f64>, Vec<f64>)> = points
             .par_iter()
             .map(|q| {
                 let psi = lagrangian.evaluate_functions(q);
-                let functions = reduced.selected.iter().map(|&l| psi[l]).collect();
-                let alpha = |&m: &usize| evaluate(&lagrangian.coefficients[m].terms, &psi);
-                (functions, simplified.iter().map(alpha).collect())
+                let functions = selected.iter().map(|&l| psi[l]).collect();
+                (functions, combinations.iter().map(|terms| evaluate(terms, &psi)).collect())
             })
             .collect();
-        let functions =
-            (0..reduced.selected.len()).map(|j| rows.iter().map(|row| row.0[j]).collect()).collect();
-        let coefficients = (0..simplified.len()).map(|j| rows.iter().map(|row| row.1[j]).collect()).collect();
+        let functions = (0..selected.len()).map(|j| rows.iter().map(|row| row.0[j]).collect()).collect();
+        let coefficients =
+            (0..combinations.len()).map(|j| rows.iter().map(|row| row.1[j]).collect()).collect();
         Self { functions, coefficients }
     }
 
@@ -92,13 +97,13 @@ fn parameters(reduced: &Reduced, m: usize) -> Vec<f64> {
     reduced.selected.iter().map(of).collect()
 }
 
-fn combination(selected: &[usize], parameters: &[f64]) -> Combination {
+pub(super) fn combination(selected: &[usize], parameters: &[f64]) -> Combination {
     let mut terms: Combination =
         selected.iter().copied().zip(parameters.iter().copied()).filter(|&(_, k)| k != 0.0).collect();
     terms.sort_by_key(|&(l, _)| l);
     terms
 }
 
-fn largest(values: &[f64]) -> f64 {
+pub(super) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m, x| m.max(x.abs()))
 }

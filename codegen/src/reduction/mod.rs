@@ -7,6 +7,8 @@ mod extremes;
 mod gram_schmidt;
 mod lu;
 mod minimax;
+mod reestimate;
+mod regression;
 mod samples;
 mod shared;
 
@@ -14,6 +16,8 @@ pub use exact::exact;
 pub use extremes::extremes;
 pub use gram_schmidt::{GramSchmidt, Pick};
 pub use minimax::minimax;
+pub use reestimate::reestimate;
+pub use regression::{Learnt, Regression};
 pub use samples::Samples;
 pub use shared::shared;
 
@@ -33,40 +37,56 @@ pub struct Reduced {
     pub combinations: Vec<Combination>,
     /// Whether α̂_m differs in form from α_m.
     pub simplified: Vec<bool>,
+    /// ∂α̂_m/∂u_k by index and uncertain parameter, for a law that learns u; empty where the model stays as it is.
+    pub variations: Vec<Vec<Combination>>,
 }
 
 impl Reduced {
     /// True where every parameter is a finite number.
     pub fn is_finite(&self) -> bool {
-        self.combinations.iter().flatten().all(|(_, k)| k.is_finite())
+        let all = self.combinations.iter().chain(self.variations.iter().flatten());
+        all.flatten().all(|(_, k)| k.is_finite())
     }
 
-    /// The residual α_m − α̂_m of coefficient `m` as one combination.
+    /// The residual α_m − α̂_m of coefficient `m` as one combination, at the arm's own parameters.
     pub fn residual(&self, lagrangian: &Lagrangian, m: usize) -> Combination {
-        let (exact, kept) = (&lagrangian.coefficients[m].terms, &self.combinations[m]);
-        let mut out = Combination::new();
-        let (mut a, mut b) = (exact.iter().peekable(), kept.iter().peekable());
-        loop {
-            let (l, value) = match (a.peek(), b.peek()) {
-                (Some(&&(la, ka)), Some(&&(lb, kb))) => match la.cmp(&lb) {
-                    std::cmp::Ordering::Less => (a.next(), (la, ka)).1,
-                    std::cmp::Ordering::Greater => (b.next(), (lb, -kb)).1,
-                    std::cmp::Ordering::Equal => {
-                        a.next();
-                        b.next();
-                        (la, ka - kb)
-                    }
-                },
-                (Some(&&(la, ka)), None) => (a.next(), (la, ka)).1,
-                (None, Some(&&(lb, kb))) => (b.next(), (lb, -kb)).1,
-                (None, None) => break,
-            };
-            if value != 0.0 {
-                out.push((l, value));
-            }
-        }
-        out
+        plus(&lagrangian.coefficients[m].terms, -1.0, &self.combinations[m])
     }
+
+    /// ∂(α_m − α̂_m)/∂u_k.
+    pub fn residual_variation(&self, lagrangian: &Lagrangian, m: usize, k: usize) -> Combination {
+        let exact = &lagrangian.coefficients[m].variations[k];
+        match self.variations.get(m) {
+            Some(learnt) => plus(exact, -1.0, &learnt[k]),
+            None => exact.clone(),
+        }
+    }
+}
+
+/// a + k b, both by ascending function, without zeros.
+pub fn plus(a: &Combination, k: f64, b: &Combination) -> Combination {
+    let mut out = Combination::new();
+    let (mut a, mut b) = (a.iter().peekable(), b.iter().peekable());
+    loop {
+        let (l, value) = match (a.peek(), b.peek()) {
+            (Some(&&(la, ka)), Some(&&(lb, kb))) => match la.cmp(&lb) {
+                std::cmp::Ordering::Less => (a.next(), (la, ka)).1,
+                std::cmp::Ordering::Greater => (b.next(), (lb, k * kb)).1,
+                std::cmp::Ordering::Equal => {
+                    a.next();
+                    b.next();
+                    (la, ka + k * kb)
+                }
+            },
+            (Some(&&(la, ka)), None) => (a.next(), (la, ka)).1,
+            (None, Some(&&(lb, kb))) => (b.next(), (lb, k * kb)).1,
+            (None, None) => break,
+        };
+        if value != 0.0 {
+            out.push((l, value));
+        }
+    }
+    out
 }
 
 /// Weight w_m of equation (2): the mean square of what multiplies α_m, summed over the places where it stands.

@@ -19,14 +19,14 @@ pub fn shared(lagrangian: &Lagrangian, measure: &Measure, functions: usize) -> R
             .coefficients
             .iter()
             .zip(&weights)
-            .map(|(c, &w)| if c.terms.len() > j { w } else { 0.0 })
+            .map(|(c, &w)| if c.width() > j { w } else { 0.0 })
             .collect();
         if counting.iter().all(|&w| w == 0.0) || selection.step(&counting).is_none() {
             break;
         }
     }
     let selected: Vec<usize> = selection.picks().iter().map(|pick| pick.function).collect();
-    let simplified: Vec<bool> = lagrangian.coefficients.iter().map(|c| c.terms.len() > functions).collect();
+    let simplified: Vec<bool> = lagrangian.coefficients.iter().map(|c| c.width() > functions).collect();
     let combinations = lagrangian
         .coefficients
         .iter()
@@ -42,5 +42,5 @@ pub fn shared(lagrangian: &Lagrangian, measure: &Measure, functions: usize) -> R
             terms
         })
         .collect();
-    Reduced { selected, combinations, simplified }
+    Reduced { selected, combinations, simplified, variations: Vec::new() }
 }

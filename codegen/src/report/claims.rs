@@ -65,7 +65,7 @@ fn tracking(comparison: &Comparison) -> [Claim; 3] {
 
 /// The largest difference between the positions of two runs along the same motion, rad or m, over the instants that
 /// both have.
-fn largest_difference(a: &Run, b: &Run) -> f64 {
+pub(crate) fn largest_difference(a: &Run, b: &Run) -> f64 {
     let instants = a.trace.position_error.iter().zip(&b.trace.position_error);
     instants.flat_map(|(a, b)| a.iter().zip(b)).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }

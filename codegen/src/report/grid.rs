@@ -43,7 +43,7 @@ impl Grid {
 }
 
 /// `x` with four significant digits; powers of ten only where the number would run long.
-pub(super) fn short(x: f64) -> String {
+pub(crate) fn short(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
         "0".to_string()

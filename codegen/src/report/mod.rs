@@ -1,13 +1,18 @@
 //! What a person looks at: tables for the terminal and plots, as text; nothing here writes a file.
 
 mod claims;
+mod figure;
 mod grid;
 mod plot;
+mod reproduction;
 mod series;
 mod table;
 
+pub(crate) use claims::largest_difference;
 pub use claims::{Claim, claims};
+pub(crate) use grid::short;
 pub use plot::plot;
+pub use reproduction::{Figures, figures};
 pub use table::{bounds_table, claims_table, metrics_table, operations_table};
 
 use crate::arm::JointKind;
@@ -37,5 +42,7 @@ fn law_name(law: LawSpec, boundary_layer: bool) -> &'static str {
         (LawSpec::Report, true) => "law (34), boundary layer",
         (LawSpec::Tight, false) => "tight law, sign function",
         (LawSpec::Tight, true) => "tight law, boundary layer",
+        (LawSpec::Adaptive, false) => "adaptive law (46), sign function",
+        (LawSpec::Adaptive, true) => "adaptive law (46), boundary layer",
     }
 }

@@ -114,7 +114,12 @@ mod tests {
 
     #[test]
     fn bounds_that_are_zero_are_left_out() {
-        let zero = Bounds { d: vec![vec![0.0; 2]; 2], h: vec![vec![vec![0.0; 2]; 2]; 2], g: vec![0.0; 2] };
+        let zero = Bounds {
+            d: vec![vec![0.0; 2]; 2],
+            h: vec![vec![vec![0.0; 2]; 2]; 2],
+            b: vec![0.0; 2],
+            g: vec![0.0; 2],
+        };
         assert!(bounds_table(&zero).contains("all bounds are zero"));
         let mut some = zero;
         some.d[0][1] = 0.25;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::{Comparison, Scenario, simulate};
-use crate::arm::{Arm, Body, Joint, JointKind, Limits, Transform};
+use crate::arm::{Arm, Body, Joint, JointKind, Limits, Transform, Uncertainty};
 use crate::body::{expanded, recursive};
 use crate::bounds::{Bounds, Effort, certified};
 use crate::design::{Design, Problem, design};
@@ -54,18 +54,15 @@ impl Example {
                 let deltas: Vec<f64> = proofs.iter().map(|proof| proof.bound).collect();
                 (expanded(&arm, &lagrangian, &reduced), Bounds::new(&lagrangian, &deltas))
             }
-            None => {
-                let bounds =
-                    Bounds { d: vec![vec![0.0; n]; n], h: vec![vec![vec![0.0; n]; n]; n], g: vec![0.0; n] };
-                (recursive(&arm), bounds)
-            }
+            None => (recursive(&arm), Bounds::new(&lagrangian, &vec![0.0; lagrangian.coefficients.len()])),
         };
         let control = ControlSpec {
             law: if functions.is_some() { LawSpec::Report } else { LawSpec::Exact },
-            period: 0.01,
-            w: MatrixSpec::Scalar(40.0),
-            pqq: MatrixSpec::Scalar(0.25),
-            omega: MatrixSpec::Scalar(1.0),
+            design: None,
+            period: Some(0.01),
+            w: Some(MatrixSpec::Scalar(40.0)),
+            pqq: Some(MatrixSpec::Scalar(0.25)),
+            omega: Some(MatrixSpec::Scalar(1.0)),
             boundary_layer: boundary_layer.map(VectorSpec::Scalar),
             initial_error: InitialErrorSpec {
                 position: VectorSpec::Scalar(0.2),
@@ -77,6 +74,8 @@ impl Example {
             require_guarantee: false,
             compensate_coulomb: false,
             on_fault: OnFaultSpec::Hold,
+            uncertainty: None,
+            adaptation: None,
         };
         let design = design(&Problem {
             file: Path::new("example.json"),
@@ -86,6 +85,8 @@ impl Example {
             bounds: &bounds,
             domain: &tube,
             motion: Some(&motion),
+            uncertainty: &Uncertainty::default(),
+            regression: None,
             seek_tube: false,
         })
         .unwrap();
@@ -113,6 +114,7 @@ impl Example {
             design: &self.design,
             code: &self.code,
             bounds: &self.bounds,
+            regressor: None,
             initial: &self.initial,
             simulation: &self.simulation,
         })
@@ -146,6 +148,7 @@ fn arm(links: &[Link]) -> Arm {
             kind: JointKind::Revolute,
             pose,
             body: moved(&end, mass, pseudo, moment),
+            link: Transform::IDENTITY,
             armature: 0.0,
             viscous_friction: 0.0,
             coulomb_friction: [0.0; 2],

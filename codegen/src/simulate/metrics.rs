@@ -83,6 +83,7 @@ mod tests {
             position_error: errors.iter().map(|&e| vec![e, 0.0]).collect(),
             torque: errors.iter().map(|&e| vec![10.0 * e, -1.0]).collect(),
             lyapunov: vec![0.0; errors.len()],
+            ..Trace::default()
         }
     }
 

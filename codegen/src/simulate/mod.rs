@@ -1,6 +1,6 @@
 //! Closed-loop simulation, with the very laws and the very controller that run on the device.
 //!
-//! The plant is always the exact arm; the law under test knows only the reduced model.
+//! The plant is an exact arm, by default that of the specification; the law under test knows only the reduced model.
 
 mod array;
 #[cfg(test)]
@@ -12,25 +12,27 @@ mod run;
 
 use std::path::Path;
 
-use gramforge_runtime::law::{CoriolisTerm, ExactLaw, Gains, ReportLaw, Switching, TightLaw};
+use gramforge_runtime::law::{AdaptiveLaw, CoriolisTerm, ExactLaw, Gains, ReportLaw, Switching, TightLaw};
 use gramforge_runtime::simulate::JointState;
 use gramforge_runtime::{ConfigError, OnFault, Settings};
 use serde::Serialize;
 
 pub use metrics::{CONVERGED, Metrics};
-pub use models::{ArmModel, GraphModel};
+pub use models::{ArmModel, GraphModel, LearningModel, MOST_LEARNT};
 pub use run::{Run, Trace};
 
 use self::array::{matrix, vector};
 use self::reference::MotionReference;
 use self::run::Rig;
 use crate::arm::Arm;
+use crate::body::Regressor;
 use crate::bounds::Bounds;
 use crate::check;
-use crate::design::{Design, checked};
+use crate::design::{Adaptation, Design, checked};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::motion::Motion;
+use crate::pipeline::Generation;
 use crate::spec::{CoriolisTermSpec, InitialErrorSpec, LawSpec, OnFaultSpec, SimulationSpec, VectorSpec};
 
 /// Runge–Kutta steps a control period, where the specification names none.
@@ -43,7 +45,7 @@ const MOST_STEPS: f64 = 1e8;
 pub struct Scenario<'a> {
     /// The specification, which errors name.
     pub file: &'a Path,
-    /// The plant, and the exact model.
+    /// The arm of the specification: the exact model, and the plant.
     pub arm: &'a Arm,
     /// The desired motion.
     pub motion: &'a Motion,
@@ -53,10 +55,38 @@ pub struct Scenario<'a> {
     pub code: &'a Graph,
     /// What the reduced model leaves out.
     pub bounds: &'a Bounds,
+    /// The torque as a function of what the law learns.
+    pub regressor: Option<&'a Regressor>,
     /// Error at time 0: the arm starts at q_d + position, q̇_d + velocity.
     pub initial: &'a InitialErrorSpec,
     /// Duration and substeps.
     pub simulation: &'a SimulationSpec,
+}
+
+impl<'a> Scenario<'a> {
+    /// What a specification describes.
+    ///
+    /// # Errors
+    /// [`Error::Input`] where it has no motion or no controller.
+    pub fn of(generation: &'a Generation) -> Result<Self, Error> {
+        let Generation { loaded, arm, motion, design, code, bounds, regressor, .. } = generation;
+        let missing = |field: &str, what: &str| {
+            let mend = format!("add `{field}` to the specification");
+            Error::input(&loaded.path, field, format!("is missing, and a simulation needs {what}"), mend)
+        };
+        let control = loaded.spec.control.as_ref();
+        Ok(Self {
+            file: &loaded.path,
+            arm,
+            motion: motion.as_ref().ok_or_else(|| missing("motion", "a desired motion"))?,
+            design: design.as_ref().ok_or_else(|| missing("control", "a law"))?,
+            code,
+            bounds,
+            regressor: regressor.as_ref(),
+            initial: &control.ok_or_else(|| missing("control", "a law"))?.initial_error,
+            simulation: &loaded.spec.simulation,
+        })
+    }
 }
 
 /// The same motion of the same arm under two laws with the same gains, period and limits.
@@ -78,10 +108,19 @@ pub struct Comparison {
 /// [`Error::Input`] where a number of control or simulation cannot be used, [`Error::Internal`] where the parts of
 /// the scenario do not belong to the same arm of 1 to 8 joints.
 pub fn simulate(scenario: &Scenario) -> Result<Comparison, Error> {
+    simulate_on(scenario, scenario.arm)
+}
+
+/// The same on a plant that is not the arm of the specification, such as one that carries another load: both laws know
+/// the arm of the specification.
+///
+/// # Errors
+/// As [`simulate`].
+pub fn simulate_on(scenario: &Scenario, plant: &Arm) -> Result<Comparison, Error> {
     macro_rules! dispatch {
         ($($n:literal)*) => {
             match scenario.arm.dof() {
-                $($n => compare::<$n>(scenario),)*
+                $($n => compare::<$n>(scenario, plant),)*
                 n => Err(Error::Internal(format!("an arm of {n} joints passed its check"))),
             }
         };
@@ -89,9 +128,10 @@ pub fn simulate(scenario: &Scenario) -> Result<Comparison, Error> {
     dispatch!(1 2 3 4 5 6 7 8)
 }
 
-fn compare<const N: usize>(scenario: &Scenario) -> Result<Comparison, Error> {
+fn compare<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Comparison, Error> {
     let Scenario { file, arm, design, .. } = *scenario;
-    let rig = rig::<N>(scenario)?;
+    let rig = rig::<N>(scenario, plant)?;
+    let own = ArmModel::<N>::new(arm)?;
     let model = GraphModel::<N>::new(scenario.code, scenario.bounds, arm)?;
     let plain = ExactLaw { gains: rig.gains, coulomb: vector("Coulomb friction", &design.coulomb)? };
     let robust = ReportLaw {
@@ -110,12 +150,19 @@ fn compare<const N: usize>(scenario: &Scenario) -> Result<Comparison, Error> {
     };
     let ReportLaw { gains, disturbance, switching, coulomb, .. } = robust;
     let tight = TightLaw { gains, disturbance, switching, coulomb };
+    let learning = match (scenario.regressor, &design.adaptation) {
+        (Some(regressor), Some(adaptation)) => Some((regressor, learning(file, adaptation, robust)?)),
+        _ => None,
+    };
     let (exact, law) = rayon::join(
-        || rig.run(rig.arm, plain),
-        || match design.law {
-            LawSpec::Exact => rig.run(model, plain),
-            LawSpec::Report => rig.run(model, robust),
-            LawSpec::Tight => rig.run(model, tight),
+        || rig.run(own, plain, 0),
+        || match (design.law, learning) {
+            (LawSpec::Exact, _) => rig.run(model, plain, 0),
+            (LawSpec::Tight, _) => rig.run(model, tight, 0),
+            (LawSpec::Adaptive, Some((regressor, law))) => {
+                rig.run(LearningModel { own: model, regressor }, law, regressor.parameters)
+            }
+            (LawSpec::Report | LawSpec::Adaptive, _) => rig.run(model, robust, 0),
         },
     );
     let refuse = |error: ConfigError| {
@@ -130,12 +177,35 @@ fn compare<const N: usize>(scenario: &Scenario) -> Result<Comparison, Error> {
     })
 }
 
-fn rig<'a, const N: usize>(scenario: &Scenario<'a>) -> Result<Rig<'a, N>, Error> {
-    let Scenario { arm, motion, design, initial, .. } = *scenario;
-    let coulomb: Vec<[f64; 2]> = arm.joints.iter().map(|joint| joint.coulomb_friction).collect();
+/// The adaptive law, with parameters that have no effect added up to [`MOST_LEARNT`].
+fn learning<const N: usize>(
+    file: &Path,
+    adaptation: &Adaptation,
+    robust: ReportLaw<f64, N>,
+) -> Result<AdaptiveLaw<f64, N, MOST_LEARNT>, Error> {
+    let count = adaptation.rate.len();
+    if count > MOST_LEARNT {
+        let mend = "learn the `uncertain` parameters";
+        let problem = format!("are {count}; a simulation bears {MOST_LEARNT}");
+        return Err(Error::input(file, "control.adaptation.parameters", problem, mend));
+    }
+    let padded = |values: &[f64], rest: f64| std::array::from_fn(|k| values.get(k).copied().unwrap_or(rest));
+    let Adaptation { rate, low, high, initial, .. } = adaptation;
+    Ok(AdaptiveLaw {
+        robust,
+        rate: padded(rate, 1.0),
+        low: padded(low, 0.0),
+        high: padded(high, 0.0),
+        initial: padded(initial, 0.0),
+    })
+}
+
+fn rig<'a, const N: usize>(scenario: &Scenario<'a>, plant: &'a Arm) -> Result<Rig<'a, N>, Error> {
+    let Scenario { motion, design, initial, .. } = *scenario;
+    let coulomb: Vec<[f64; 2]> = plant.joints.iter().map(|joint| joint.coulomb_friction).collect();
     let (steps, substeps) = steps(scenario)?;
     Ok(Rig {
-        arm: ArmModel::new(arm)?,
+        plant: ArmModel::new(plant)?,
         coulomb: vector("the arm", &coulomb)?,
         reference: MotionReference::new(motion)?,
         initial: JointState {

@@ -11,7 +11,7 @@ use super::models::ArmModel;
 use super::reference::MotionReference;
 
 /// What happened at the control instants k·T, k = 0, 1, …: all lists of a trace run parallel.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Trace {
     /// Time, s.
     pub time: Vec<f64>,
@@ -19,8 +19,27 @@ pub struct Trace {
     pub position_error: Vec<Vec<f64>>,
     /// Torque or force held from this instant to the next, one entry a joint, N·m or N.
     pub torque: Vec<Vec<f64>>,
-    /// V of equation (12) with the exact D, J.
+    /// V of equation (12) with the plant's own D, J.
     pub lyapunov: Vec<f64>,
+    /// What the law has learnt before this instant, one entry a parameter; empty for a law that does not learn.
+    pub parameters: Vec<Vec<f64>>,
+}
+
+/// What a law remembers, as numbers.
+pub(super) trait Memory {
+    fn parameters(&self) -> &[f64];
+}
+
+impl Memory for () {
+    fn parameters(&self) -> &[f64] {
+        &[]
+    }
+}
+
+impl<const P: usize> Memory for [f64; P] {
+    fn parameters(&self) -> &[f64] {
+        self
+    }
 }
 
 /// A simulated run: the numbers that sum it up, and the course they were taken from.
@@ -32,9 +51,9 @@ pub struct Run {
     pub trace: Trace,
 }
 
-/// The exact arm, and how it is driven, whatever the law.
+/// The plant, and how it is driven, whatever the law.
 pub(super) struct Rig<'a, const N: usize> {
-    pub(super) arm: ArmModel<'a, N>,
+    pub(super) plant: ArmModel<'a, N>,
     /// Coulomb friction of the plant, [forwards, backwards], N·m or N.
     pub(super) coulomb: [[f64; 2]; N],
     pub(super) reference: MotionReference<'a, N>,
@@ -51,30 +70,30 @@ pub(super) struct Rig<'a, const N: usize> {
 const LOST: f64 = 2.0 * std::f64::consts::PI;
 
 impl<const N: usize> Rig<'_, N> {
-    /// Drives the exact arm by a law that knows `model`.
+    /// Drives the plant by a law that knows `model` and learns `learnt` parameters.
     ///
     /// # Errors
     /// The runtime's, where a number of law, settings or substeps cannot be used.
-    pub(super) fn run<M, L>(&self, model: M, law: L) -> Result<Run, ConfigError>
+    pub(super) fn run<M, L>(&self, model: M, law: L, learnt: usize) -> Result<Run, ConfigError>
     where
         M: Model<N, Scalar = f64>,
-        L: Law<M, N>,
+        L: Law<M, N, State: Memory>,
     {
         let mut controller = Controller::new(model, law, self.settings)?;
-        let plant = RigidPlant { model: &self.arm, coulomb: self.coulomb };
+        let plant = RigidPlant { model: &self.plant, coulomb: self.coulomb };
         let desired = self.reference.at(0.0);
         let start = JointState {
             q: std::array::from_fn(|i| desired.q[i] + self.initial.q[i]),
             qd: std::array::from_fn(|i| desired.qd[i] + self.initial.qd[i]),
         };
         let mut simulation = Simulation::new(plant, start, self.settings.period, self.substeps)?;
-        let mut trace =
-            Trace { time: Vec::new(), position_error: Vec::new(), torque: Vec::new(), lyapunov: Vec::new() };
+        let mut trace = Trace::default();
         let (mut saturated_steps, mut faulted_steps, mut diverged_at) = (0, 0, None);
         let lost = self.initial.q.iter().fold(LOST, |lost, e| lost.max(LOST + e.abs()));
         // One instant more than there are periods, so that the trace ends at the end.
         for _ in 0..=self.steps {
             let now = simulation.time();
+            let parameters = controller.law_state().parameters().iter().copied().take(learnt).collect();
             let Ok(record) = simulation.step(&mut controller, &self.reference) else {
                 diverged_at = Some(now);
                 break;
@@ -95,7 +114,8 @@ impl<const N: usize> Rig<'_, N> {
             trace.time.push(record.time);
             trace.position_error.push(error.to_vec());
             trace.torque.push(torque.to_vec());
-            trace.lyapunov.push(lyapunov(&self.arm, &self.gains, &sample));
+            trace.parameters.push(parameters);
+            trace.lyapunov.push(lyapunov(&self.plant, &self.gains, &sample));
             if error.iter().any(|e| e.abs() > lost) {
                 diverged_at = Some(now);
                 break;

@@ -41,6 +41,18 @@ pub(super) fn feedforward_and_feedback<M: Model<N>, const N: usize>(
     tracking: &Tracking<M::Scalar, N>,
 ) -> [M::Scalar; N] {
     let passivity = model.passivity_torque(&sample.q, &sample.qd, &tracking.v_r, &tracking.a_r);
+    around(model, &passivity, gains, coulomb, sample, tracking)
+}
+
+/// The same about another passivity torque than the model's own.
+pub(super) fn around<M: Model<N>, const N: usize>(
+    model: &M,
+    passivity: &[M::Scalar; N],
+    gains: &Gains<M::Scalar, N>,
+    coulomb: &[[M::Scalar; 2]; N],
+    sample: &Sample<M::Scalar, N>,
+    tracking: &Tracking<M::Scalar, N>,
+) -> [M::Scalar; N] {
     let viscous = model.viscous_friction();
     let damping = mat_vec(&gains.damping, &tracking.s);
     let position = mat_vec(&gains.pqq, &tracking.q_e);

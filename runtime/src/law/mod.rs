@@ -3,6 +3,7 @@
 //! A law's numbers are a plain struct of public fields that a `const` can hold; whatever it learns lies apart in its
 //! [`Law::State`].
 
+mod adaptive;
 mod coriolis_term;
 mod exact;
 mod gains;
@@ -14,6 +15,7 @@ mod test_states;
 mod tight;
 mod tracking;
 
+pub use adaptive::AdaptiveLaw;
 pub use coriolis_term::CoriolisTerm;
 pub use exact::ExactLaw;
 pub use gains::Gains;

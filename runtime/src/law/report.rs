@@ -2,7 +2,7 @@
 
 use core::array::from_fn;
 
-use super::exact::feedforward_and_feedback;
+use super::exact::around;
 use super::{
     CoriolisTerm, Gains, Law, Sample, Switching, Tracking, check_coulomb, check_nonnegative, check_symmetric,
 };
@@ -54,6 +54,35 @@ impl<T: Real, const N: usize> ReportLaw<T, N> {
         };
         from_fn(|i| inertia[i] + bounds.b[i] * speed[i] + coriolis[i] + bounds.g[i] + self.disturbance[i])
     }
+
+    /// (34) about a passivity torque, N·m.
+    pub(super) fn around<M: Model<N, Scalar = T>>(
+        &self,
+        model: &M,
+        passivity: &[T; N],
+        sample: &Sample<T, N>,
+        tracking: &Tracking<T, N>,
+    ) -> [T; N] {
+        let nominal = around(model, passivity, &self.gains, &self.coulomb, sample, tracking);
+        let damping = match &self.coriolis_term {
+            CoriolisTerm::Matrix(delta_c1) => mat_vec(delta_c1, &tracking.s),
+            CoriolisTerm::Switching => [T::ZERO; N],
+        };
+        let size = self.bracket(model, sample, tracking);
+        let side = self.switching.at(&tracking.s);
+        from_fn(|i| nominal[i] - damping[i] - side[i] * size[i])
+    }
+
+    pub(super) fn check_numbers(&self) -> Result<(), ConfigError> {
+        self.gains.check()?;
+        check_nonnegative("delta_c", &self.delta_c)?;
+        if let CoriolisTerm::Matrix(delta_c1) = &self.coriolis_term {
+            check_symmetric("delta_c1", delta_c1)?;
+        }
+        check_nonnegative("disturbance", &self.disturbance.map(|x| [x; N]))?;
+        self.switching.check()?;
+        check_coulomb(&self.coulomb)
+    }
 }
 
 impl<M: Model<N, Scalar = T>, T: Real, const N: usize> Law<M, N> for ReportLaw<T, N> {
@@ -63,25 +92,12 @@ impl<M: Model<N, Scalar = T>, T: Real, const N: usize> Law<M, N> for ReportLaw<T
 
     fn torque(&self, model: &M, _state: &mut (), sample: &Sample<T, N>) -> [T; N] {
         let tracking = Tracking::new(&self.gains.p12, sample);
-        let nominal = feedforward_and_feedback(model, &self.gains, &self.coulomb, sample, &tracking);
-        let damping = match &self.coriolis_term {
-            CoriolisTerm::Matrix(delta_c1) => mat_vec(delta_c1, &tracking.s),
-            CoriolisTerm::Switching => [T::ZERO; N],
-        };
-        let size = self.bracket(model, sample, &tracking);
-        let side = self.switching.at(&tracking.s);
-        from_fn(|i| nominal[i] - damping[i] - side[i] * size[i])
+        let passivity = model.passivity_torque(&sample.q, &sample.qd, &tracking.v_r, &tracking.a_r);
+        self.around(model, &passivity, sample, &tracking)
     }
 
     fn check(&self) -> Result<(), ConfigError> {
-        self.gains.check()?;
-        check_nonnegative("delta_c", &self.delta_c)?;
-        if let CoriolisTerm::Matrix(delta_c1) = &self.coriolis_term {
-            check_symmetric("delta_c1", delta_c1)?;
-        }
-        check_nonnegative("disturbance", &self.disturbance.map(|x| [x; N]))?;
-        self.switching.check()?;
-        check_coulomb(&self.coulomb)
+        self.check_numbers()
     }
 }
 

@@ -72,6 +72,26 @@ fn one_wrong_length_after_another() {
 }
 
 #[test]
+fn in_what_is_asked_of_the_gains() {
+    let mut input = Input::good();
+    input.control("design", json!({ "convergence_time": -1.0, "tube": 0.3, "period": 0.0 }));
+    input.control("boundary_layer", json!(0.1));
+    expect(
+        &[input],
+        &[
+            "spec0.json: control.period: is given while",
+            "spec0.json: control.W: is given while",
+            "spec0.json: control.Pqq: is given while",
+            "spec0.json: control.Omega: is given while",
+            "spec0.json: control.boundary_layer: is given while",
+            "spec0.json: control.design.convergence_time: is -1",
+            "spec0.json: control.design.period: is 0",
+            "spec0.json: control.design.tube: is 0.3",
+        ],
+    );
+}
+
+#[test]
 fn beyond_limits_in_several_joints_and_more() {
     let mut input = Input::good();
     input.link(0, "limits", json!({ "velocity": 0.1 })).link(2, "limits", json!({ "position": [-1.5, 1.5] }));

@@ -105,6 +105,7 @@ fn assemble(
                     kind,
                     pose: here.then(&turn),
                     body: Body::default(),
+                    link: turn.inverse(),
                     armature: drive.armature.unwrap_or(0.0),
                     viscous_friction: drive.viscous_friction.unwrap_or(0.0),
                     coulomb_friction: drive.coulomb_friction.unwrap_or([0.0; 2]),

@@ -80,7 +80,9 @@ pub(super) fn neighbours(choice: &Choice) -> Vec<Choice> {
         Choice { axial: !c.axial, ..c },
     ];
     all.extend([Row::Turned, Row::Still, Row::Parent].map(|row| Choice { row, ..c }));
-    all.extend([Diagonal::Trace, Diagonal::Squares, Diagonal::Turned].map(|diagonal| Choice { diagonal, ..c }));
+    all.extend(
+        [Diagonal::Trace, Diagonal::Squares, Diagonal::Turned].map(|diagonal| Choice { diagonal, ..c }),
+    );
     all.extend([Corner::Sum, Corner::Halves, Corner::Turned].map(|corner| Choice { corner, ..c }));
     all.extend([Mass::None, Mass::ForX, Mass::ForY].map(|mass| Choice { mass, ..c }));
     all.extend([Along::None, Along::LikeX, Along::LikeY].map(|along| Choice { along, ..c }));

@@ -65,7 +65,12 @@ pub(super) struct Step<'g> {
 }
 
 /// Motion of the link that `step` joins to one that moves as `parent`.
-pub(super) fn advance<'g>(parent: &Motion<'g>, step: &Step<'g>, before: &Choice, choice: &Choice) -> Motion<'g> {
+pub(super) fn advance<'g>(
+    parent: &Motion<'g>,
+    step: &Step<'g>,
+    before: &Choice,
+    choice: &Choice,
+) -> Motion<'g> {
     let zero = step.qd.constant_like(0.0);
     let from = if choice.sum { &parent.still } else { &parent.turned };
     let axes = &step.axes;

@@ -63,9 +63,7 @@ impl Candidate {
 
 /// A joint parallel to a revolute one before it.
 fn may_sum(arm: &Arm, j: usize) -> bool {
-    j > 0
-        && arm.joints[j].pose.rotation[2][2].abs() == 1.0
-        && arm.joints[j - 1].kind == JointKind::Revolute
+    j > 0 && arm.joints[j].pose.rotation[2][2].abs() == 1.0 && arm.joints[j - 1].kind == JointKind::Revolute
 }
 
 /// Lengths and the gravity of the arm, each of which becomes 1 where it is the unit.

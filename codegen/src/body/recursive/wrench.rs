@@ -64,11 +64,8 @@ fn turned<'g>(body: &Parameters<'g>, turn: &Turn<'g>) -> Parameters<'g> {
     let lean = c * (m[0][1] + m[1][0]) - s * (m[1][1] - m[0][0]);
     let xy = c * lean - m[0][1];
     let side = turn.outward([m[0][2], m[1][2], m[2][2]]);
-    let sigma = [
-        [m[0][0] - s * lean, xy, side[0]],
-        [xy, m[1][1] + s * lean, side[1]],
-        [side[0], side[1], m[2][2]],
-    ];
+    let sigma =
+        [[m[0][0] - s * lean, xy, side[0]], [xy, m[1][1] + s * lean, side[1]], [side[0], side[1], m[2][2]]];
     Parameters { mass: body.mass, first: turn.outward(body.first), sigma }
 }
 

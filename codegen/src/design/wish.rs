@@ -1,0 +1,183 @@
+//! What a specification asks of the gains: gains that achieve it, or what stands in the way.
+
+use super::region::{outside, room, width};
+use super::search::{Candidate, Scene, Target};
+use super::{Stage, Tuning, checked, guarantee};
+use crate::check::vector;
+use crate::error::{Error, Faults};
+use crate::spec::{DesignSpec, VectorSpec};
+
+/// Periods that are tried, longest first, where none is asked for, s.
+const PERIODS: [f64; 7] = [0.01, 0.005, 0.002, 0.001, 0.0005, 0.0002, 0.0001];
+/// Halvings of the asked period, and then of the interval in which the longest sufficient one lies.
+const HALVINGS: usize = 8;
+const NEARER: usize = 4;
+/// Errors under half the period that are more than this share of those before show that the period is not at fault.
+const STALLED: f64 = 0.97;
+
+/// The gains that `wish` asks for.
+///
+/// # Errors
+/// [`Error::Input`] with what cannot be met, and by how much.
+pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
+    let super::Problem { file, arm, domain, motion, .. } = *stage.problem;
+    let n = arm.dof();
+    let tube = |tube| checked("control.design.tube", vector(tube, n));
+    let own = room(domain, motion, arm);
+    let asked = wish.tube.as_ref().map(tube).transpose()?;
+    let room =
+        asked.as_ref().map_or(own.clone(), |asked| asked.iter().zip(&own).map(|(a, b)| a.min(*b)).collect());
+    let target = Target { time: wish.convergence_time, room };
+    let mut faults = Faults::of(file);
+    let scene = Scene::new(stage, &target);
+    let mut hopeless = outside(domain, motion, arm, &vec![0.0; n]);
+    hopeless.extend(motion.map_or(Vec::new(), |motion| guarantee::beyond_torque_limits(arm, motion)));
+    if !scene.certified {
+        hopeless.push("the bounds on D over the domain cannot be certified".to_string());
+    }
+    if !hopeless.is_empty() {
+        let mend = "change the motion, the measure or the limits: no gains alter that";
+        faults.push("control.design", format!("cannot be met: {}", hopeless.join("; ")), mend);
+        return Err(faults.into_error());
+    }
+    let start = &stage.initial[0];
+    if let Some(i) = (0..n).find(|&i| start[i] > target.room[i]) {
+        faults.push(
+            if asked.is_some() { "control.design.tube" } else { "control.initial_error.position" },
+            format!(
+                "cannot be met: joint {} starts with an error of {}, and may have {}",
+                i + 1,
+                start[i],
+                target.room[i]
+            ),
+            "take a smaller initial error or a wider tube",
+        );
+        return Err(faults.into_error());
+    }
+    let periods = wish.period.map_or(PERIODS.to_vec(), |period| vec![period]);
+    let mut nearest: Option<Candidate> = None;
+    for &period in &periods {
+        let Some(candidate) = scene.find(period)? else { continue };
+        if candidate.holds {
+            return Ok(candidate.tuning);
+        }
+        if nearest.as_ref().is_none_or(|other| candidate.reach < other.reach) {
+            nearest = Some(candidate);
+        }
+    }
+    let shorter = match wish.period {
+        Some(period) => longest(&scene, period)?,
+        None => None,
+    };
+    if let (Some(period), Some(longest)) = (wish.period, shorter) {
+        let within = if asked.is_some() { "this tube" } else { "the measure's tube" };
+        faults.push(
+            "control.design.period",
+            format!(
+                "{period} s is too long: with {within}, initial error and convergence time there are gains up to {longest} s"
+            ),
+            "shorten it, widen the tube, or allow more time to converge",
+        );
+        return Err(faults.into_error());
+    }
+    let Some(nearest) = nearest else {
+        let period = periods.last().copied().unwrap_or(f64::NAN);
+        let least = scene
+            .shortest_time(period)
+            .map_or("far more".to_string(), |time| format!("at least {time:.3} s"));
+        faults.push(
+            "control.design.convergence_time",
+            format!("{} s is too short: with a period of {period} s it takes {least}", wish.convergence_time),
+            "allow more time, or shorten the period",
+        );
+        return Err(faults.into_error());
+    };
+    let own_width = width(domain, n);
+    too_narrow(stage, wish, &nearest, asked.as_deref(), own_width.as_deref(), &mut faults)?;
+    Err(faults.into_error())
+}
+
+/// The fault of a tube that errors leave under the best gains.
+fn too_narrow(
+    stage: &Stage,
+    wish: &DesignSpec,
+    nearest: &Candidate,
+    asked: Option<&[f64]>,
+    own: Option<&[f64]>,
+    faults: &mut Faults,
+) -> Result<(), Error> {
+    let up = |e: &f64| format!("{:.4}", e + 5e-5);
+    let list = |x: &[f64]| match x.split_first() {
+        Some((first, rest)) if rest.iter().all(|e| up(e) == up(first)) => up(first),
+        _ => format!("({})", x.iter().map(up).collect::<Vec<_>>().join(", ")),
+    };
+    let errors = &nearest.judged.envelope.position_error;
+    if !nearest.reach.is_finite() {
+        let mend = "keep more functions in `model`, shorten the period, or compensate Coulomb friction";
+        let problem = "cannot be met: what the model leaves out, and friction, drive every gain's level of V up without end";
+        faults.push("control.design", problem, mend);
+        return Ok(());
+    }
+    let shown = |asked: &[f64]| match (&wish.tube, asked) {
+        (Some(VectorSpec::Scalar(tube)), _) => tube.to_string(),
+        _ => format!("{asked:?}"),
+    };
+    let enough = own.is_none_or(|own| errors.iter().zip(own).all(|(e, w)| e <= w));
+    match asked {
+        Some(asked) if enough => faults.push(
+            "control.design.tube",
+            format!("{} is too narrow: errors may reach {}", shown(asked), list(errors)),
+            format!("write at least {}, or take a smaller initial error", list(errors)),
+        ),
+        Some(asked) => faults.push(
+            "control.design.tube",
+            format!("{} is too narrow: errors may reach {}", shown(asked), list(errors)),
+            "take a smaller initial error, or widen it together with `measure.tube.position_error`",
+        ),
+        None => {
+            let (_, judged) = stage.judge(&nearest.tuning, false)?;
+            let most = &judged.guarantee.initial_error_max;
+            let less = most.iter().map(|e| format!("{:.3e}", e * 0.9995)).collect::<Vec<_>>().join(", ");
+            faults.push(
+                "control.design",
+                format!("cannot be met: errors may reach {}, beyond the measure", list(errors)),
+                format!(
+                    "widen `measure.tube.position_error`, or take an initial position error of at most ({less})"
+                ),
+            );
+        }
+    }
+    Ok(())
+}
+
+/// The longest period below `period`, to two digits, for which there are gains, s.
+fn longest(scene: &Scene, period: f64) -> Result<Option<f64>, Error> {
+    let (mut good, mut found, mut before) = (period, false, f64::INFINITY);
+    for _ in 0..HALVINGS {
+        good = two_digits(0.5 * good);
+        let Some((_, candidate)) = scene.firmest(good)? else { continue };
+        found = candidate.holds;
+        // Where more gain no longer helps, none will.
+        if found || (before.is_finite() && candidate.reach > STALLED * before) {
+            break;
+        }
+        before = candidate.reach;
+    }
+    let holds = |trial: f64| -> Result<bool, Error> {
+        Ok(scene.firmest(trial)?.is_some_and(|(_, candidate)| candidate.holds))
+    };
+    let mut bad = (2.0 * good).min(period);
+    for _ in 0..NEARER {
+        let middle = two_digits(0.5 * (good + bad));
+        if !found || middle <= good || middle >= bad {
+            break;
+        }
+        if holds(middle)? { good = middle } else { bad = middle }
+    }
+    Ok(found.then_some(good))
+}
+
+/// Cut to two significant digits: what is told is what was tried.
+fn two_digits(x: f64) -> f64 {
+    format!("{:.1e}", x * 0.995).parse().unwrap_or(x)
+}

@@ -1,0 +1,64 @@
+//! The model as an affine function of the parameters that its law learns.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::literal::{count, vector};
+use super::{Module, spaced, statements};
+use crate::error::Error;
+
+/// The impl of the runtime's `AdaptiveModel`; nothing for a law that does not learn.
+pub(super) fn regression(module: &Module, model: &Ident) -> Result<TokenStream, Error> {
+    let Some(regressor) = module.regressor else { return Ok(quote!()) };
+    let n = module.arm.dof();
+    let (joints, parameters) = (count(n), count(regressor.parameters));
+    let operations = regressor.code.operations();
+    let doc = format!(
+        " base + Yθ in {} multiplications, {} additions, {} sine-cosine pairs{}.",
+        operations.mul,
+        operations.add,
+        operations.trig_pairs,
+        if regressor.own_base { ", and those of one passivity torque" } else { "" }
+    );
+    let inputs = if regressor.own_base {
+        quote!(q: &[f64; #joints], qd: &[f64; #joints], v_r: &[f64; #joints], a_r: &[f64; #joints])
+    } else {
+        statements::parameters(&regressor.code, n)
+    };
+    let (statements, outputs) = statements::parts(&regressor.code)?;
+    let (base, columns) = if regressor.own_base {
+        let own = quote!(::gramforge_runtime::Model::passivity_torque(self, q, qd, v_r, a_r));
+        (own, outputs.as_slice())
+    } else {
+        let (base, columns) = outputs.split_at(n.min(outputs.len()));
+        (spaced(base.iter().cloned()), columns)
+    };
+    let columns = spaced(columns.chunks(n).map(|column| spaced(column.iter().cloned())));
+    Ok(quote! {
+        #[doc = #doc]
+        impl ::gramforge_runtime::AdaptiveModel<#joints, #parameters> for #model {
+            fn regression(&self, #inputs) -> ::gramforge_runtime::Regression<f64, #joints, #parameters> {
+                #(#statements)*
+                ::gramforge_runtime::Regression { base: #base, columns: #columns }
+            }
+        }
+    })
+}
+
+/// The constants of the law's parameters; nothing for a law that does not learn.
+pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
+    let Some(adaptation) = module.design.and_then(|design| design.adaptation.as_ref()) else {
+        return Ok(quote!());
+    };
+    let number = count(adaptation.names.len());
+    let names = &adaptation.names;
+    let nominal = vector(&adaptation.initial)?;
+    Ok(quote! {
+        /// Number of parameters θ that the law learns.
+        pub const PARAMETERS: usize = #number;
+        /// What they stand for: what an uncertain number differs by from the arm's own, or a parameter of the model.
+        pub const PARAMETER_NAMES: [&str; #number] = [#(#names),*];
+        /// θ of the arm as specified.
+        pub const NOMINAL_PARAMETERS: [f64; #number] = #nominal;
+    })
+}

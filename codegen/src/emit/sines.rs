@@ -1,0 +1,45 @@
+//! Sines and cosines: the call for one angle, and the table if there is one.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::literal::{count, float};
+use super::spaced;
+use crate::error::Error;
+use crate::sines::{Kind, Sines};
+
+/// The expression of (sin, cos) of `angle`.
+pub(super) fn call(sines: &Sines, angle: TokenStream) -> TokenStream {
+    let path = quote!(::gramforge_runtime::trig);
+    let by = match sines.kind {
+        Kind::Libm => return quote!(::gramforge_runtime::Real::sin_cos(#angle)),
+        Kind::Polynomial => quote!(#path::Polynomial),
+        Kind::Table(_) => quote!(SINES),
+        Kind::Std => quote!(#path::Std),
+    };
+    quote!(#path::Trig::sin_cos(&#by, #angle))
+}
+
+/// The table as a static; nothing where the code has none.
+pub(super) fn table(sines: &Sines) -> Result<TokenStream, Error> {
+    let Kind::Table(n) = sines.kind else { return Ok(TokenStream::new()) };
+    let pair = |&(sin, cos): &(f64, f64)| -> Result<TokenStream, Error> {
+        let (sin, cos) = (float(sin)?, float(cos)?);
+        Ok(quote!((#sin, #cos)))
+    };
+    let pairs = spaced(sines.pairs.iter().map(pair).collect::<Result<Vec<_>, _>>()?);
+    let n = count(n);
+    let doc = format!(
+        " Sines and cosines of one turn; interpolated, none is off by more than {:.3e}.",
+        up(sines.error)
+    );
+    Ok(quote! {
+        #[doc = #doc]
+        pub static SINES: ::gramforge_runtime::trig::Table<f64, #n> = ::gramforge_runtime::trig::Table::new(#pairs);
+    })
+}
+
+/// At least `x` after rounding to four digits.
+pub(super) fn up(x: f64) -> f64 {
+    x + 5e-4 * x
+}
