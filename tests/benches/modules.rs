@@ -16,7 +16,11 @@ use gramforge_tests::random::Random;
 /// States that one measured call takes in turn.
 const STATES: usize = 256;
 
-fn torque<const N: usize>(group: &mut BenchmarkGroup<WallTime>, name: &str, model: &impl Model<N, Scalar = f64>) {
+fn torque<const N: usize>(
+    group: &mut BenchmarkGroup<WallTime>,
+    name: &str,
+    model: &impl Model<N, Scalar = f64>,
+) {
     let mut random = Random::new(7);
     let states: Vec<[[f64; N]; 4]> = (0..STATES)
         .map(|_| [random.array(3.0), random.array(2.0), random.array(2.0), random.array(10.0)])

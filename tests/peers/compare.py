@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Measures the exact generated code beside its peers; README.md in this folder says what and how.
 
-    python3 tests/peers/compare.py [ARM...]
+    python3 tests/peers/compare.py [ARM...] [--skip PROGRAM...] [--gramforge PATH]
 
 Everything it makes goes under target/peers/: comparison.md, comparison.json and what they were made with.
 """
 
+import argparse
 import json
 import os
 import resource
@@ -16,7 +17,7 @@ from pathlib import Path
 
 from arms import ARMS, ROOT, STATES, Arm, specification
 from measure import Program, deviation, nanoseconds, run
-from table import NOTES, markdown
+from table import INVERSE, markdown
 
 HERE = Path(__file__).resolve().parent
 BUILD = ROOT / "target/peers"
@@ -48,12 +49,14 @@ def packages():
 class Natives:
     """The peers' programs that serve every arm; `missing` says which could not be built, and why."""
 
-    def __init__(self):
-        site, self.missing = packages(), {}
+    def __init__(self, skipped):
+        site, self.missing = packages(), {name: "skipped" for name in skipped}
         prefix, casadi, mujoco = site / "cmeel.prefix", site / "casadi", site / "mujoco"
         # As in the package's own pinocchioTargets.cmake.
         limits = ["LIMIT_LIST_SIZE=30", "LIMIT_VECTOR_SIZE=30", "CFG_NO_PREPROCESSED_HEADERS"]
         boost = [f"-DBOOST_MPL_{limit}" for limit in limits] + ["-DBOOST_FUSION_INVOKE_MAX_ARITY=12"]
+        # Boost 1.90 with these limits fails its own check that a variant holds the type asked of it.
+        boost.append("-DBOOST_VARIANT_USE_RELAXED_GET_BY_DEFAULT")
         headers = [f"-I{prefix}/include", f"-I{casadi}/include/eigen3", f"-I{casadi}/include"]
         pinocchio = ["g++", "-std=c++17", *boost, *headers]
         library = next(mujoco.glob("libmujoco.so*"))
@@ -67,6 +70,8 @@ class Natives:
 
     def build(self, name, command):
         program = BUILD / name
+        if name in self.missing:
+            return
         sources = [HERE / "native" / part for part in os.listdir(HERE / "native")]
         if program.exists() and program.stat().st_mtime > max(part.stat().st_mtime for part in sources):
             return
@@ -81,9 +86,11 @@ class Natives:
         return name not in self.missing
 
 
-def generated(names):
+def generated(names, gramforge):
     """Generates every arm's exact module; the forms of trigonometry that this generator knows, and what it said."""
-    run(["cargo", "build", "--release", "--bin", "gramforge"], cwd=ROOT)
+    if gramforge is None:
+        run(["cargo", "build", "--release", "--bin", "gramforge"], cwd=ROOT)
+        gramforge = ROOT / "target/release/gramforge"
     folder, made = BUILD / "modules", {}
     folder.mkdir(exist_ok=True)
     trigs = ["libm"]
@@ -93,7 +100,7 @@ def generated(names):
             path.write_text(json.dumps(specification(name, trig), indent=2))
             if name not in names and (folder / f"{name}_{trig}.rs").exists():
                 continue
-            command = [ROOT / "target/release/gramforge", "generate", path, "--out", folder, "--json"]
+            command = [gramforge, "generate", path, "--out", folder, "--json"]
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
             done = subprocess.run([str(x) for x in command], capture_output=True, text=True)
             after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -154,7 +161,7 @@ def implementations(arm, natives, trigs, made):
     if natives.has("mujoco"):
         rows.append(("MuJoCo, 2 × mj_rne", Program([BUILD / "mujoco", compiled, states, arm.n]), {}))
     if natives.has("mj_inverse"):
-        rows.append((NOTES["mj_inverse"], Program([BUILD / "mj_inverse", compiled, states, arm.n]), {}))
+        rows.append((INVERSE, Program([BUILD / "mj_inverse", compiled, states, arm.n]), {}))
     return rows
 
 
@@ -169,7 +176,7 @@ def compared(arm, natives, trigs, made):
     still.write_text("".join(" ".join(x[: 2 * n] + x[n : 2 * n] + x[3 * n :]) + "\n" for x in lines))
     inverse = Program([*rows[0][1].command[:2], still]).torques()
     for name, program, figures in rows:
-        target = inverse if name == NOTES["mj_inverse"] else reference
+        target = inverse if name == INVERSE else reference
         figures["deviation"] = deviation(program.torques(), target)
         if not figures["deviation"] <= AGREEMENT:
             raise SystemExit(f"{arm.name}: {name} deviates by {figures['deviation']:.1e} of the largest torque")
@@ -181,12 +188,18 @@ def compared(arm, natives, trigs, made):
 
 
 def main():
-    names = sys.argv[1:] or list(ARMS)
+    parser = argparse.ArgumentParser(description="Measures the exact generated code beside its peers.")
+    parser.add_argument("arms", nargs="*", metavar="ARM", help=f"of {', '.join(ARMS)}; all by default")
+    skippable = ["pinocchio", "pinocchio_casadi", "mujoco", "mj_inverse"]
+    parser.add_argument("--skip", nargs="+", default=[], choices=skippable, help="peers to leave out")
+    parser.add_argument("--gramforge", type=Path, help="the generator, instead of building it")
+    options = parser.parse_args()
+    names = options.arms or list(ARMS)
     if unknown := set(names) - set(ARMS):
-        raise SystemExit(f"no such arm: {', '.join(unknown)}; there are {', '.join(ARMS)}")
+        parser.error(f"no such arm: {', '.join(unknown)}; there are {', '.join(ARMS)}")
     prepare()
-    natives = Natives()
-    trigs, made = generated(names)
+    natives = Natives(options.skip)
+    trigs, made = generated(names, options.gramforge)
     result = {"versions": VERSIONS, "processor": PROCESSOR, "missing": natives.missing, "arms": {}}
     compilers = (["gcc", "--version"], ["rustc", "--version"], ["valgrind", "--version"])
     result["tools"] = [run(command).stdout.splitlines()[0] for command in compilers]

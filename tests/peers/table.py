@@ -2,16 +2,38 @@
 
 from arms import ARMS
 
-NOTES = {"mj_inverse": "MuJoCo, mj_inverse (no v_r)"}
-CASADI = ("CasADi C, Pinocchio's recursion", "CasADi C, plain recursion")
+INVERSE = "MuJoCo, mj_inverse (no v_r)"
+OURS, CASADI = "Gramforge exact", "CasADi C"
 
 
 def markdown(result):
-    """All arms in one table, then the ratios that matter, then what was measured with."""
-    lines = [
-        "| arm | implementation | instructions | operations | ns, median (quartiles) | code bytes | generation, CPU s |",
-        "|---|---|---|---|---|---|---|",
-    ]
+    """A summary for README, then every figure, then what was measured with."""
+    parts = [summary(result), details(result), footnotes(result)]
+    return "\n\n".join("\n".join(lines) for lines in parts) + "\n"
+
+
+def summary(result):
+    """Instructions and operations, one column an arm; below, ours as fractions of each CasADi row."""
+    tables = {name: {row["implementation"]: row for row in rows} for name, rows in result["arms"].items()}
+    titles = list(next(iter(tables.values())))
+    lines = line(["instructions a call (operations)", *(ARMS[name][1] for name in tables)])
+    lines += line(["---"] * (1 + len(tables)))
+    for title in titles:
+        rows = [table[title] for table in tables.values()]
+        operations = [f" ({number(row['operations'])})" if "operations" in row else "" for row in rows]
+        lines += line([title, *(number(row["instructions"]) + count for row, count in zip(rows, operations))])
+    ours = [title for title in titles if title.startswith(OURS)]
+    for peer in [title for title in titles if title.startswith(CASADI)]:
+        for title in ours:
+            parts = [table[title]["instructions"] / table[peer]["instructions"] for table in tables.values()]
+            lines += line([f"{title} / {peer}", *(f"{part:.2f}" for part in parts)])
+    return lines
+
+
+def details(result):
+    """Every figure, one row an implementation and arm."""
+    heads = ["arm", "implementation", "instructions", "operations", "ns, median (quartiles)", "code bytes"]
+    lines = line([*heads, "generation, CPU s"]) + line(["---"] * 7)
     for name, rows in result["arms"].items():
         for k, row in enumerate(rows):
             low, high = row["ns"]["quartiles"]
@@ -24,28 +46,22 @@ def markdown(result):
                 number(row["code_bytes"]),
                 f"{row['seconds']:.2g}" if "seconds" in row else "–",
             ]
-            lines.append(f"| {' | '.join(cells)} |")
-    lines += ["", *ratios(result), ""]
+            lines += line(cells)
+    return lines
+
+
+def footnotes(result):
+    """Versions, what is missing, agreement."""
     versions = ", ".join(f"{name} {version}" for name, version in result["versions"].items())
-    lines.append(f"{versions}; {', '.join(result['tools'])}; processor `{result['processor']}`.")
-    lines += [f"`{name}` is missing: {reason}" for name, reason in result["missing"].items()]
+    lines = [f"{versions}; {', '.join(result['tools'])}; compiled for `{result['processor']}`."]
+    lines += [f"`{name}` is missing: {reason}." for name, reason in result["missing"].items()]
     most = max(row["deviation"] for rows in result["arms"].values() for row in rows)
     lines.append(f"Largest deviation of any torque from the first row of its arm: {most:.1e} of the largest torque.")
-    return "\n".join(lines) + "\n"
+    return lines
 
 
-def ratios(result):
-    """Instructions of our rows as fractions of both CasADi rows."""
-    found = []
-    for name, rows in result["arms"].items():
-        by_name = {row["implementation"]: row for row in rows}
-        ours = [row for row in rows if row["implementation"].startswith("Gramforge")]
-        for row in ours:
-            for peer in filter(by_name.get, CASADI):
-                part = row["instructions"] / by_name[peer]["instructions"]
-                found.append((ARMS[name][1], row["implementation"], peer, f"{part:.2f}"))
-    lines = ["| arm | instructions of | as a fraction of | |", "|---|---|---|---|"]
-    return lines + [f"| {' | '.join(cells)} |" for cells in found]
+def line(cells):
+    return [f"| {' | '.join(cells)} |"]
 
 
 def number(x):
