@@ -234,6 +234,7 @@ impl Generation {
             name: &self.loaded.spec.name,
             hash: &spec_hash(&self.loaded)?,
             arm: &self.arm,
+            uncertainty: &self.uncertainty,
             lagrangian: &self.lagrangian,
             reduced: &self.reduced,
             bounds: &self.bounds,

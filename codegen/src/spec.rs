@@ -411,8 +411,10 @@ pub struct ControlSpec {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DesignSpec {
-    /// Time in which the position error of a joint that starts at rest falls to 1/20, s: of the joint by itself, with
-    /// the largest inertia it can have in the domain, under the exact model and outside the robust term.
+    /// Time in which position errors fall to 1/20 of the largest initial one, s.
+    ///
+    /// From rest, whatever their signs, under the exact model and outside the robust term: each joint by itself with the
+    /// largest inertia that it can have in the domain, and all together with D(q) held still along the motion.
     pub convergence_time: f64,
     /// What |q_e| must never leave, rad or m. Default: the tube of the measure, which it must not exceed.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -10,7 +10,7 @@
 ///
 /// One passivity torque: 49 multiplications, 31 additions, 2 sine-cosine pairs.
 ///
-/// The exact model costs 52 multiplications, 34 additions, 2 sine-cosine pairs: the reduced one saves 6 of 86 operations.
+/// The exact model costs 50 multiplications, 32 additions, 2 sine-cosine pairs: the reduced one saves 2 of 82 operations.
 ///
 /// Domain of the bounds: |q − q_d(t)| ≤ (0.2, 0.2, 0.2) around the desired trajectory. They are certified, rounding in f64 included; coefficients that are not simplified are exact but for rounding and for terms below 1e-12 of the largest, and count as zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -37,7 +37,7 @@ pub const TRIG_PAIRS: usize = 2;
 /// Diagonal of B, N·m·s/rad or N·s/m.
 pub const VISCOUS_FRICTION: [f64; 3] = [0.0, 0.0, 0.0];
 
-/// ΔD, Δh, ΔB and ΔG of the simplified coefficients, certified over the domain that the model's documentation names.
+/// ΔD, Δh, ΔB and ΔG, certified over the domain, and for all arms, that the model's documentation names.
 pub const BOUNDS: ::gramforge_runtime::Bounds<f64, 3> = ::gramforge_runtime::Bounds {
     d: [[0.3306117033339101, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
     h: [

@@ -4,7 +4,7 @@
 
 /// Exact model of `puma560_exact`, 6 joints, in recursive form.
 ///
-/// One passivity torque: 175 multiplications, 151 additions, 4 sine-cosine pairs.
+/// One passivity torque: 176 multiplications, 146 additions, 4 sine-cosine pairs.
 ///
 /// Nothing is left out but rounding and terms below 1e-12 of the largest, so the bounds are zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,10 +20,10 @@ pub const FUNCTIONS: usize = 0;
 pub const PSI: [&str; 0] = [];
 
 /// Multiplications in one passivity torque.
-pub const MULTIPLICATIONS: usize = 175;
+pub const MULTIPLICATIONS: usize = 176;
 
 /// Additions, subtractions and negations in one passivity torque.
-pub const ADDITIONS: usize = 151;
+pub const ADDITIONS: usize = 146;
 
 /// Joints whose sine and cosine one passivity torque takes.
 pub const TRIG_PAIRS: usize = 4;
@@ -38,7 +38,7 @@ pub const VISCOUS_FRICTION: [f64; 6] = [
     0.2158232532732,
 ];
 
-/// ΔD, Δh, ΔB and ΔG of the simplified coefficients, certified over the domain that the model's documentation names.
+/// ΔD, Δh, ΔB and ΔG, certified over the domain, and for all arms, that the model's documentation names.
 pub const BOUNDS: ::gramforge_runtime::Bounds<f64, 6> = ::gramforge_runtime::Bounds::ZERO;
 
 impl ::gramforge_runtime::Model<6> for Puma560Exact {
@@ -54,16 +54,15 @@ impl ::gramforge_runtime::Model<6> for Puma560Exact {
         let (sin_q3, cos_q3) = ::gramforge_runtime::Real::sin_cos(q[2]);
         let (sin_q4, cos_q4) = ::gramforge_runtime::Real::sin_cos(q[3]);
         let (sin_q5, cos_q5) = ::gramforge_runtime::Real::sin_cos(q[4]);
+        let h2_zy = qd[0] * v_r[1] + v_r[0] * qd[1];
         let t1 = qd[0] * v_r[0];
         let t2 = qd[1] * v_r[1];
-        let h2_zy = qd[0] * v_r[1] + v_r[0] * qd[1];
         let t3 = t1 + t2;
-        let a3_x = 0.3474988420565076 * a_r[0] - (cos_q2 * t3 + sin_q2 * a_r[1]);
+        let a3_x = 0.3474988420565076 * a_r[0] - cos_q2 * t3 - sin_q2 * a_r[1];
         let a3_z = sin_q2 * h2_zy - a_r[0] * cos_q2 - 0.3474988420565076 * t1;
-        let a3_y = cos_q2 * a_r[1] - sin_q2 * t2 + 22.71885132005558;
+        let a3_y = 22.71885132005558 + cos_q2 * a_r[1] - sin_q2 * t2;
         let w3_z = qd[1] + qd[2];
         let wr3_z = v_r[1] + v_r[2];
-        let t4 = w3_z * wr3_z;
         let h3_zy = qd[0] * wr3_z + v_r[0] * w3_z;
         let sin3 = sin_q2 * cos_q3 + cos_q2 * sin_q3;
         let cos3 = cos_q2 * cos_q3 - sin_q2 * sin_q3;
@@ -72,101 +71,97 @@ impl ::gramforge_runtime::Model<6> for Puma560Exact {
         let wr3_x = v_r[0] * sin3;
         let wr3_y = v_r[0] * cos3;
         let h3_xz = a_r[0] * cos3;
-        let t5 = h3_zy * sin3;
-        let h3_zx = t5 - h3_xz;
-        let t6 = a_r[0] * sin3 + h3_zy * cos3;
-        let t7 = w3_y * wr3_y;
-        let t8 = t4 + t7;
-        let h3_yy = t7 - t1 - t4;
-        let t9 = w3_x * wr3_y + w3_y * wr3_x;
-        let h3_yx = a_r[2] + 0.5 * (a_r[1] + a_r[1] + t9);
-        let h3_xy = t9 - h3_yx;
-        let t10 = a3_x * cos3 + a3_y * sin3;
-        let a4_x = h3_xy - 0.047012505789717454 * t8 + t10;
-        let a4_z = a3_y * cos3 - a3_x * sin3 + (h3_yy + 0.047012505789717454 * h3_yx);
-        let t11 = t6 + 0.047012505789717454 * h3_zx + a3_z;
-        let w4_z = qd[3] + w3_y;
-        let wr4_z = v_r[3] + wr3_y;
+        let t4 = h3_zy * sin3;
+        let h3_zx = t4 - h3_xz;
+        let t5 = a_r[0] * sin3 + h3_zy * cos3;
+        let t6 = w3_y * wr3_y;
+        let t7 = w3_z * wr3_z;
+        let h3_yy = t6 - t1 - t7;
+        let t8 = w3_x * wr3_y + w3_y * wr3_x;
+        let h3_yx = a_r[2] + 0.5 * (2.0 * a_r[1] + t8);
+        let h3_xy = t8 - h3_yx;
+        let t9 = a3_x * cos3 + a3_y * sin3;
+        let t10 = t6 + t7;
+        let a4_x = h3_xy + t9 - 0.047012505789717454 * t10;
+        let a4_z = h3_yy + a3_y * cos3 + 0.047012505789717454 * h3_yx - a3_x * sin3;
+        let w4_z = w3_y + qd[3];
+        let wr4_z = wr3_y + v_r[3];
         let w4_x = cos_q4 * w3_x - sin_q4 * w3_z;
-        let t12 = cos_q4 * w3_z + sin_q4 * w3_x;
         let wr4_x = cos_q4 * wr3_x - sin_q4 * wr3_z;
-        let t13 = cos_q4 * wr3_z + sin_q4 * wr3_x;
-        let h4_xz = cos_q4 * h3_xy - sin_q4 * t6;
-        let t14 = cos_q4 * t6 + sin_q4 * h3_xy;
+        let h4_xz = cos_q4 * h3_xy - sin_q4 * t5;
         let h4_zx = wr4_z * w4_x + w4_z * wr4_x - h4_xz;
-        let t15 = wr4_z * t12 + w4_z * t13;
-        let t16 = w4_x * t13 + t12 * wr4_x;
-        let h4_yx = a_r[3] + 0.5 * (h3_xz - t5 + h3_xz - t16);
-        let h5_xz = t16 + h4_yx;
-        let t17 = cos_q4 * a4_x - sin_q4 * t11;
-        let a5_z = cos_q4 * t11 + sin_q4 * a4_x;
-        let h5_yz = t15 - t14;
-        let w5_z = qd[4] + t12;
-        let wr5_z = v_r[4] + t13;
+        let t11 = cos_q4 * wr3_z + sin_q4 * wr3_x;
+        let t12 = cos_q4 * w3_z + sin_q4 * w3_x;
+        let t13 = w4_x * t11 + wr4_x * t12;
+        let h4_yx = a_r[3] + 0.5 * (2.0 * h3_xz - t4 - t13);
+        let h5_xz = t13 + h4_yx;
+        let t14 = a3_z + t5 + 0.047012505789717454 * h3_zx;
+        let t15 = cos_q4 * a4_x - sin_q4 * t14;
+        let a5_z = cos_q4 * t14 + sin_q4 * a4_x;
+        let w5_z = t12 + qd[4];
+        let wr5_z = t11 + v_r[4];
         let w5_x = cos_q5 * w4_x + sin_q5 * w4_z;
         let w5_y = cos_q5 * w4_z - sin_q5 * w4_x;
         let wr5_x = cos_q5 * wr4_x + sin_q5 * wr4_z;
         let wr5_y = cos_q5 * wr4_z - sin_q5 * wr4_x;
-        let t18 = cos_q5 * h5_xz + sin_q5 * h5_yz;
+        let t16 = cos_q4 * t5 + sin_q4 * h3_xy - wr4_z * t12 - w4_z * t11;
+        let t17 = cos_q5 * h5_xz - sin_q5 * t16;
+        let h5_zy = wr5_z * w5_y + w5_z * wr5_y + cos_q5 * t16 + sin_q5 * h5_xz;
+        let t18 = w5_x * wr5_y + w5_y * wr5_x;
+        let h5_yx = a_r[4] + 0.5 * (h4_zx + t18 - h4_xz);
+        let h5_xy = t18 - h5_yx;
+        let w6_z = w5_y + qd[5];
+        let wr6_z = wr5_y + v_r[5];
         let t19 = wr5_z * w5_x + w5_z * wr5_x;
-        let h5_zy = wr5_z * w5_y + w5_z * wr5_y - (cos_q5 * h5_yz - sin_q5 * h5_xz);
-        let t20 = w5_x * wr5_y + w5_y * wr5_x;
-        let h5_yx = a_r[4] + 0.5 * (h4_zx - h4_xz + t20);
-        let h5_xy = t20 - h5_yx;
-        let w6_z = qd[5] + w5_y;
-        let wr6_z = v_r[5] + wr5_y;
-        let n6_z = 0.000039999999999999996 * (a_r[5] + 0.5 * (t18 - t19 + t18));
-        let tau6 = n6_z + 0.19406450566800004 * a_r[5];
+        let n6_z = 0.000039999999999999996 * (a_r[5] + 0.5 * (2.0 * t17 - t19));
         let f5_x = 0.0012435839999999998 * h5_xy;
-        let t21 = 0.0012435839999999998 * (w5_z * wr5_z + w5_x * wr5_x);
-        let n5_x = 0.00044216000000000004 * h5_zy + 0.0012435839999999998 * a5_z
+        let n5_x = 0.0012435839999999998 * a5_z + 0.00044216000000000004 * h5_zy
             - 0.000019999999999999998 * (w5_z * wr6_z + wr5_z * w6_z);
-        let n5_y = n6_z - 0.00020000000000000004 * (t19 - t18);
-        let n5_z = 0.00020000000000000004 * h5_yx - 0.00044216000000000004 * h5_xy
-            - 0.0012435839999999998 * (cos_q5 * t17 + sin_q5 * a4_z)
-            + 0.000019999999999999998 * (w5_x * wr6_z + wr5_x * w6_z);
-        let tau5 = n5_z + 0.17070629165700002 * a_r[4];
-        let f4_x = cos_q5 * f5_x + sin_q5 * t21 + 0.23306405000000002 * t17;
-        let t22 = 0.0012435839999999998 * h5_zy + 0.23306405000000002 * a5_z;
-        let f4_z = sin_q5 * f5_x - cos_q5 * t21 + 0.23306405000000002 * a4_z;
-        let n4_x = cos_q5 * n5_x - sin_q5 * n5_y + 0.00075 * (t14 - t15);
-        let t23 = n5_z + 0.00065 * h4_zx;
-        let n4_z = sin_q5 * n5_x + cos_q5 * n5_y + (0.00065 * h4_yx + 0.00075 * h5_xz);
-        let t24 = cos_q4 * f4_x + sin_q4 * t22;
-        let tau4 = n4_z + 0.19079062612368 * a_r[3];
-        let t25 = cos_q4 * t22 - sin_q4 * f4_x;
-        let f3_x = t24 + 0.15181224400000007 * h3_xy;
+        let n5_y = n6_z - 0.00020000000000000004 * (t19 - t17);
+        let n5_z = 0.000019999999999999998 * (w5_x * wr6_z + wr5_x * w6_z)
+            + 0.00020000000000000004 * h5_yx - 0.00044216000000000004 * h5_xy
+            - 0.0012435839999999998 * (cos_q5 * t15 + sin_q5 * a4_z);
+        let t20 = 0.0012435839999999998 * (w5_z * wr5_z + w5_x * wr5_x);
+        let f4_x = cos_q5 * f5_x + sin_q5 * t20 + 0.23306405000000002 * t15;
+        let f4_z = sin_q5 * f5_x + 0.23306405000000002 * a4_z - cos_q5 * t20;
+        let n4_x = cos_q5 * n5_x + 0.00075 * t16 - sin_q5 * n5_y;
+        let n4_z = sin_q5 * n5_x + cos_q5 * n5_y + 0.00065 * h4_yx + 0.00075 * h5_xz;
+        let t21 = 0.0012435839999999998 * h5_zy + 0.23306405000000002 * a5_z;
+        let t22 = cos_q4 * f4_x + sin_q4 * t21;
+        let f3_x = t22 + 0.15181224400000007 * h3_xy;
         let f3_y = f4_z + 0.15181224400000007 * h3_yy;
-        let n3_x = cos_q4 * n4_x + sin_q4 * t23 + t25
-            + (0.10817090799999998 * t6 + 0.0003162740000000018 * h3_zx
-                - 0.0047376000000000015 * (t1 + h3_yy) + 0.15181224400000007 * a3_z);
-        let n3_z = cos_q4 * t23 - sin_q4 * n4_x + (0.047012505789717454 * f4_z - t24)
-            + (0.01625 * h3_yx - 0.10817090799999998 * h3_xy
-                + 0.0003162740000000018 * (t8 + h3_yy) - 0.0047376000000000015 * h3_xz
-                - 0.15181224400000007 * t10);
-        let t26 = cos3 * f3_x - sin3 * f3_y;
-        let n3_y = sin3 * n3_x
+        let t23 = n5_z + 0.00065 * h4_zx;
+        let t24 = cos_q4 * t23 + 0.047012505789717454 * f4_z + 0.01625 * h3_yx
+            + 0.0003162740000000018 * (h3_yy + t10) - sin_q4 * n4_x - t22;
+        let n3_z = t24 - 0.10817090799999998 * h3_xy - 0.0047376000000000015 * h3_xz
+            - 0.15181224400000007 * t9;
+        let t25 = cos3 * f3_x - sin3 * f3_y;
+        let t26 = cos_q4 * t21 - sin_q4 * f4_x;
+        let t27 = cos_q4 * n4_x + sin_q4 * t23 + t26 + 0.15181224400000007 * a3_z
+            + 0.10817090799999998 * t5 + 0.0003162740000000018 * h3_zx
+            - 0.0047376000000000015 * (t1 + h3_yy);
+        let t28 = sin3 * t27
             + cos3
-                * (n4_z - 0.047012505789717454 * t25
-                    + (0.0047376000000000015 * h3_xy
-                        - (0.01625 * h3_zx + 0.0003162740000000018 * t6)));
-        let tau3 = n3_z + 0.5768733319380001 * a_r[2];
-        let t27 = 0.014198399999999986 * cos_q2 + 1.3687971519999997 * sin_q2;
-        let t28 = cos_q2 * t27 - 0.007099199999999993;
-        let t29 = 0.6094018560000001 * sin_q2 + 0.023750999999999998 * cos_q2;
-        let t30 = sin_q2 * t27;
+                * (n4_z + 0.0047376000000000015 * h3_xy - 0.047012505789717454 * t26
+                    - 0.01625 * h3_zx - 0.0003162740000000018 * t5);
+        let t29 = 0.014198399999999986 * cos_q2 + 1.3687971519999997 * sin_q2;
+        let t30 = sin_q2 * t29;
         let t31 = 1.4419235519999998 - t30;
-        let t32 = a_r[0] * t31 - h2_zy * t28
-            + (0.6094018560000001 * cos_q2 - 0.023750999999999998 * sin_q2) * (t1 - t3)
-            - a_r[1] * t29;
-        let t33 = a_r[1] * (0.07312640000000001 + t30 + t31) + (t3 - t2) * t28
-            - a_r[0] * t29
+        let t32 = t28 + 0.3474988420565076 * t25 + a_r[0] * (t31 + 2.2176757866420003)
+            + (0.6094018560000001 * cos_q2 - 0.023750999999999998 * sin_q2) * (t1 - t3);
+        let t33 = cos_q2 * t29 - 0.007099199999999993;
+        let t34 = 0.6094018560000001 * sin_q2 + 0.023750999999999998 * cos_q2;
+        let tau1 = t32 - cos_q2 * (t26 + 0.15181224400000007 * t5) - h2_zy * t33
+            - a_r[1] * t34;
+        let t35 = n3_z + cos_q2 * (sin3 * f3_x + cos3 * f3_y)
             + 22.71885132005558
-                * (1.4058717119999997 * cos_q2 - 0.045079919999999996 * sin_q2);
-        let tau2 = cos_q2 * (sin3 * f3_x + cos3 * f3_y) - sin_q2 * t26 + n3_z + t33
-            + 2.324814845 * a_r[1];
-        let tau1 = 0.3474988420565076 * t26 - cos_q2 * (t25 + 0.15181224400000007 * t6)
-            + n3_y + t32 + 2.2176757866420003 * a_r[0];
+                * (1.4058717119999997 * cos_q2 - 0.045079919999999996 * sin_q2)
+            + a_r[1] * (t31 + 2.397941245 + t30);
+        let tau2 = t35 + t33 * (t3 - t2) - sin_q2 * t25 - a_r[0] * t34;
+        let tau3 = n3_z + 0.5768733319380001 * a_r[2];
+        let tau4 = n4_z + 0.19079062612368 * a_r[3];
+        let tau5 = n5_z + 0.17070629165700002 * a_r[4];
+        let tau6 = n6_z + 0.19406450566800004 * a_r[5];
         [tau1, tau2, tau3, tau4, tau5, tau6]
     }
     fn viscous_friction(&self) -> [f64; 6] {

@@ -6,10 +6,12 @@ pub mod truth;
 use std::path::{Path, PathBuf};
 
 use gramforge::Generation;
-use gramforge::arm::Arm;
+use gramforge::arm::{Arm, Built};
 use gramforge::check::prepare;
 use gramforge::error::Faults;
+use gramforge::load::{Loaded, parse};
 use gramforge::motion::Motion;
+use serde_json::Value;
 
 /// The specification file of `name`, from `data/` or else from the committed ones.
 pub fn spec(name: &str) -> PathBuf {
@@ -34,6 +36,30 @@ pub fn motion(name: &str) -> Motion {
 /// All stages for specification `name`.
 pub fn generation(name: &str) -> Generation {
     Generation::from_file(&spec(name)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// All stages for specification `name` with some of its JSON changed.
+///
+/// # Errors
+/// The message of the first stage that refuses it.
+pub fn edited(name: &str, edit: impl FnOnce(&mut Value)) -> Result<Generation, String> {
+    let loaded = edited_spec(name, edit)?;
+    Generation::new(loaded).map_err(|error| error.to_string())
+}
+
+/// The arm of specification `name` with some of its JSON changed, and the family that it allows.
+pub fn edited_arm(name: &str, edit: impl FnOnce(&mut Value)) -> Built {
+    let loaded = edited_spec(name, edit).unwrap_or_else(|message| panic!("{message}"));
+    let mut faults = Faults::of(&loaded.path);
+    Arm::from_spec(&loaded, &mut faults).unwrap_or_else(|| panic!("{}", faults.into_error()))
+}
+
+fn edited_spec(name: &str, edit: impl FnOnce(&mut Value)) -> Result<Loaded, String> {
+    let path = spec(name);
+    let text = std::fs::read_to_string(&path).map_err(|error| error.to_string())?;
+    let mut value = serde_json::from_str(&text).map_err(|error| error.to_string())?;
+    edit(&mut value);
+    parse(&value.to_string(), &path).map_err(|error| error.to_string())
 }
 
 /// `values` as an array.

@@ -19,5 +19,7 @@ mod motion;
 mod several;
 #[path = "bad_specs/shape.rs"]
 mod shape;
+#[path = "bad_specs/uncertainty.rs"]
+mod uncertainty;
 #[path = "bad_specs/urdf.rs"]
 mod urdf;

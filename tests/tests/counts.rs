@@ -1,5 +1,6 @@
-//! Sizes of the exact models: p functions, r distinct coefficients, terms.
+//! Sizes of the exact models: p functions, r distinct coefficients, terms, operations.
 
+use gramforge::body::recursive;
 use gramforge::lagrangian::expand;
 use gramforge_tests::arm;
 
@@ -48,5 +49,22 @@ fn rotors_change_nothing_but_constants_of_the_diagonal() {
                 assert!((a.christoffel[i][j][k] - b.christoffel[i][j][k]).abs() < 1e-12, "h{i}{j}{k}");
             }
         }
+    }
+}
+
+#[test]
+fn the_exact_code_costs_no_more_than_it_did() {
+    let known = [
+        ("arm3_exact", 83, 2),
+        ("puma3", 113, 2),
+        ("puma560_exact", 322, 4),
+        ("ur5", 258, 5),
+        ("panda", 585, 6),
+        ("stanford", 280, 3),
+    ];
+    for (name, arithmetic, trig_pairs) in known {
+        let operations = recursive(&arm(name)).operations();
+        println!("{name}: {operations:?}");
+        assert_eq!((operations.arithmetic(), operations.trig_pairs), (arithmetic, trig_pairs), "{name}");
     }
 }

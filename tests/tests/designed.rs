@@ -27,18 +27,7 @@ fn ask(
 }
 
 fn run(generation: &Generation) -> Comparison {
-    let spec = &generation.loaded.spec;
-    simulate(&Scenario {
-        file: Path::new("arm.json"),
-        arm: &generation.arm,
-        motion: generation.motion.as_ref().unwrap(),
-        design: generation.design.as_ref().unwrap(),
-        code: &generation.code,
-        bounds: &generation.bounds,
-        initial: &spec.control.as_ref().unwrap().initial_error,
-        simulation: &spec.simulation,
-    })
-    .unwrap()
+    simulate(&Scenario::of(generation).unwrap()).unwrap()
 }
 
 /// Asserts that the guarantee holds, that no error leaves `tube`, and that after `time` all are below 1/20 of `error`.
@@ -52,7 +41,7 @@ fn judge(name: &str, generation: &Generation, tube: f64, time: f64, error: f64) 
         let trace = &run.trace;
         let most = trace.position_error.iter().flatten().fold(0.0_f64, |m, e| m.max(e.abs()));
         let late = |(_, e): &(&f64, &Vec<f64>)| e.iter().any(|e| e.abs() > 0.05 * error);
-        let last = trace.time.iter().zip(&trace.position_error).filter(late).last().map_or(0.0, |(t, _)| *t);
+        let last = trace.time.iter().zip(&trace.position_error).rfind(late).map_or(0.0, |(t, _)| *t);
         println!("{name}, {kind} law: at most {most:.5} of {tube}, below 1/20 after {last:.3} of {time} s");
         assert!(most <= tube && last <= time, "{name}, {kind}");
     }
@@ -100,8 +89,14 @@ fn the_three_link_arm_gets_gains_that_hold() {
 #[test]
 fn the_puma_gets_gains_that_hold_and_its_wrist_gets_less() {
     let wish = json!({ "convergence_time": 1.0, "period": 0.001 });
-    let still = |v: &mut Value| v["simulation"] = json!({ "duration": 1.2, "substeps": 2 });
-    let generation = ask(PUMA, "tight", wish, 0.02, still).unwrap();
+    let smooth = |v: &mut Value| {
+        v["simulation"] = json!({ "duration": 1.2, "substeps": 2 });
+        // Coulomb friction inside the layer keeps a joint where it is: what is left then is `final_error`'s matter.
+        for link in v["arm"]["dh"]["links"].as_array_mut().unwrap() {
+            link["motor"].as_object_mut().unwrap().remove("coulomb_friction");
+        }
+    };
+    let generation = ask(PUMA, "tight", wish, 0.02, smooth).unwrap();
     let design = generation.design.as_ref().unwrap();
     show(design);
     judge("tight", &generation, 0.1, 1.0, 0.02);

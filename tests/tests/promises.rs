@@ -25,18 +25,7 @@ fn arm3(edit: impl Fn(&mut Value)) -> Generation {
 }
 
 fn run(generation: &Generation) -> Run {
-    let spec = &generation.loaded.spec;
-    let scenario = Scenario {
-        file: Path::new("arm.json"),
-        arm: &generation.arm,
-        motion: generation.motion.as_ref().unwrap(),
-        design: generation.design.as_ref().unwrap(),
-        code: &generation.code,
-        bounds: &generation.bounds,
-        initial: &spec.control.as_ref().unwrap().initial_error,
-        simulation: &spec.simulation,
-    };
-    simulate(&scenario).unwrap().law
+    simulate(&Scenario::of(generation).unwrap()).unwrap().law
 }
 
 /// Largest |q_e| of a joint over a run, from instant `from` of its trace on.
@@ -62,13 +51,13 @@ fn random_loop(case: usize) -> Generation {
     let w: Vec<f64> = (0..3).map(|_| gain(between(0.0, 1.0), 15.0, 90.0)).collect();
     let pqq = gain(between(0.0, 1.0), 0.2, 5.0);
     let pull = between(1.0, 5.0);
-    let bend = if case % 2 == 0 { [-1.5, -0.8] } else { [-0.15, 0.15] };
+    let bend = if case.is_multiple_of(2) { [-1.5, -0.8] } else { [-0.15, 0.15] };
     let elbow = between(bend[0], bend[1]);
     let from = [between(-1.0, 1.0), between(-0.5, 1.0), elbow];
     let to = [
         from[0] + between(-1.5, 1.5),
         from[1] + between(-0.8, 0.8),
-        elbow + between(-1.0, 1.0) * if case % 2 == 0 { 0.6 } else { 0.05 },
+        elbow + between(-1.0, 1.0) * if case.is_multiple_of(2) { 0.6 } else { 0.05 },
     ];
     let duration = between(3.0, 6.0);
     arm3(|v| {
@@ -160,8 +149,8 @@ fn errors_end_inside_the_published_ones_while_the_arm_moves() {
 }
 
 #[test]
-fn a_stiff_spring_does_not_blow_up_the_final_error() {
-    // With V alone √(Σρφ/4λ_min(M)) pays for the soft spring: 0.9 rad.
+fn a_soft_spring_does_not_blow_up_the_final_error() {
+    // V alone charges the soft Pqq for all that the layer lets pass.
     let generation = arm3(|v| {
         let control = &mut v["control"];
         control["law"] = json!("tight");
@@ -171,7 +160,7 @@ fn a_stiff_spring_does_not_blow_up_the_final_error() {
     });
     let published = &generation.design.as_ref().unwrap().guarantee.final_error;
     println!("{published:?}");
-    assert!(published.iter().all(|e| *e < 0.2), "{published:?}");
+    assert!(published.iter().all(|e| *e < 0.03), "{published:?}");
 }
 
 fn safe(v: &mut Value) {
@@ -195,7 +184,7 @@ fn a_torque_limit_below_the_desired_motion_voids_the_guarantee() {
     let weak = with(42.0);
     assert!(!weak.holds);
     assert_eq!(weak.reasons.len(), 1, "{:?}", weak.reasons);
-    assert!(weak.reasons[0].starts_with("the desired motion takes 42.8"), "{:?}", weak.reasons);
+    assert!(weak.reasons[0].starts_with("the desired motion takes 42.7994"), "{:?}", weak.reasons);
     assert!(weak.reasons[0].ends_with("of joint 2, its torque limit is 42"), "{:?}", weak.reasons);
 }
 

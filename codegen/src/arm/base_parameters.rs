@@ -19,6 +19,29 @@ pub enum Mass {
     ForY,
 }
 
+/// What a body keeps of the m·z that could go to its parent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Offset {
+    /// Nothing.
+    #[default]
+    None,
+    /// So much that the parent's first moment along x vanishes.
+    ForX,
+    /// So much that the parent's first moment along y vanishes.
+    ForY,
+}
+
+/// What a body keeps of what could as well belong to its parent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Kept {
+    /// Of its mass.
+    pub mass: Mass,
+    /// Of its m·z.
+    pub offset: Offset,
+    /// Of its Σ_zz.
+    pub along: Along,
+}
+
 /// What a body keeps of the Σ_zz that could go to its parent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Along {
@@ -45,15 +68,16 @@ impl Arm {
     }
 
     /// As [`Arm::regrouped`], each body keeping what its entry says.
-    pub(crate) fn regrouped_keeping(&self, kept: &[(Mass, Along)]) -> Self {
+    pub(crate) fn regrouped_keeping(&self, kept: &[Kept]) -> Self {
         let mut arm = self.clone();
+        let longest = arm.longest();
         let mut sizes: Vec<Body> = arm.joints.iter().map(|joint| sizes(&joint.body)).collect();
         for i in (0..arm.dof()).rev() {
             let (before, rest) = arm.joints.split_at_mut(i);
             let Some(joint) = rest.first_mut() else { break };
             round(&mut joint.body, &sizes[i]);
-            let (mass, along) = kept.get(i).copied().unwrap_or_default();
-            let moved = split(joint, along);
+            let kept = kept.get(i).copied().unwrap_or_default();
+            let moved = split(joint, kept.along);
             let Some(parent) = before.last_mut() else {
                 ground(joint, &arm.gravity);
                 break;
@@ -62,7 +86,8 @@ impl Arm {
             sizes[i - 1] = sizes[i - 1].plus(&sizes[i].moved(&absolute(&joint.pose)));
             if joint.kind == JointKind::Revolute && parent.kind == JointKind::Revolute {
                 let enough = LIKE * sizes[i - 1].mass;
-                keep_mass(joint, parent, mass, enough);
+                keep_offset(joint, parent, kept.offset, enough * longest);
+                keep_mass(joint, parent, kept.mass, enough);
             }
         }
         arm
@@ -119,21 +144,31 @@ fn keep_mass(joint: &mut Joint, parent: &mut Joint, mass: Mass, enough: f64) {
         Mass::ForX => 0,
         Mass::ForY => 1,
     };
-    let p = joint.pose.translation;
-    let kept = parent.body.first_moment[axis] / p[axis];
-    if !kept.is_finite() || kept.abs() > enough {
-        return;
+    let kept = parent.body.first_moment[axis] / joint.pose.translation[axis];
+    if kept.is_finite() && kept.abs() <= enough {
+        give_back(joint, parent, Body { mass: kept, ..Body::default() });
+        parent.body.first_moment[axis] = 0.0;
     }
-    joint.body.mass = kept;
-    let body = &mut parent.body;
-    body.mass -= kept;
-    for i in 0..3 {
-        body.first_moment[i] -= kept * p[i];
-        for j in 0..3 {
-            body.pseudo_inertia[i][j] -= kept * p[i] * p[j];
-        }
+}
+
+/// Gives back m·z, which is a first moment along the joint's axis in the parent.
+fn keep_offset(joint: &mut Joint, parent: &mut Joint, offset: Offset, enough: f64) {
+    let axis = match offset {
+        Offset::None => return,
+        Offset::ForX => 0,
+        Offset::ForY => 1,
+    };
+    let kept = parent.body.first_moment[axis] / joint.pose.rotation[axis][2];
+    if kept.is_finite() && kept.abs() <= enough {
+        give_back(joint, parent, Body { first_moment: [0.0, 0.0, kept], ..Body::default() });
+        parent.body.first_moment[axis] = 0.0;
     }
-    body.first_moment[axis] = 0.0;
+}
+
+fn give_back(joint: &mut Joint, parent: &mut Joint, body: Body) {
+    joint.body = joint.body.plus(&body);
+    let opposite = Body { mass: -body.mass, first_moment: body.first_moment.map(|s| -s), ..body };
+    parent.body = parent.body.plus(&opposite.moved(&joint.pose));
 }
 
 fn sizes(body: &Body) -> Body {

@@ -15,6 +15,9 @@ pub enum Origin {
     Given,
 }
 
+/// sin² of the angle between axes whose common normal may stand so far away that digits would be lost.
+const NEARLY_PARALLEL: f64 = 1e-3;
+
 /// Offsets below this part of the longest one are rounding left over from moving frames.
 const NEGLIGIBLE: f64 = 4e-15;
 
@@ -70,20 +73,8 @@ impl Arm {
         arm
     }
 
-    /// The same revolute arm with lengths in units of `unit` metres: accelerations are divided by it, forces and
-    /// first moments multiplied, torques are what they were.
-    pub(crate) fn in_units_of(&self, unit: f64) -> Self {
-        let mut arm = self.clone();
-        arm.gravity = arm.gravity.map(|g| g / unit);
-        for joint in &mut arm.joints {
-            joint.pose.translation = joint.pose.translation.map(|p| p / unit);
-            joint.body.first_moment = joint.body.first_moment.map(|s| s * unit);
-            joint.body.mass *= unit * unit;
-        }
-        arm
-    }
-
-    fn longest(&self) -> f64 {
+    /// The longest offset between joints, m.
+    pub(super) fn longest(&self) -> f64 {
         self.joints.iter().flat_map(|joint| joint.pose.translation).fold(0.0, |most, p| most.max(p.abs()))
     }
 
@@ -101,14 +92,15 @@ impl Arm {
 }
 
 /// Feet of the common normal between the z axis and that of the frame at `pose`: how far along the former, and how far
-/// along the latter.
+/// along the latter. Of nearly parallel axes the feet level with the other's frame.
 fn feet(pose: &Transform) -> (f64, f64) {
     let p = pose.translation;
     let z = pose.rotation.map(|row| row[2]);
-    if z[2].abs() == 1.0 {
+    let square = 1.0 - z[2] * z[2];
+    if square < NEARLY_PARALLEL {
         return (p[2], 0.0 - p[2] * z[2]);
     }
     let along = p[0] * z[0] + p[1] * z[1] + p[2] * z[2];
-    let second = (p[2] * z[2] - along) / (1.0 - z[2] * z[2]);
+    let second = (p[2] * z[2] - along) / square;
     (p[2] + second * z[2], second)
 }

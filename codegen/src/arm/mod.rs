@@ -6,6 +6,7 @@ mod definite;
 mod dh;
 mod drive;
 mod frames;
+mod intervals;
 mod place;
 mod transform;
 mod uncertainty;
@@ -13,7 +14,7 @@ mod urdf;
 mod validate;
 
 pub use crate::spec::JointKind;
-pub(crate) use base_parameters::{Along, Mass};
+pub(crate) use base_parameters::{Along, Kept, Mass, Offset};
 pub use definite::{Indefinite, indefinite, indefinite_among};
 pub(crate) use frames::Origin;
 pub use transform::Transform;

@@ -2,18 +2,14 @@
 
 use std::path::Path;
 
+use super::intervals::{Given, about};
 use super::place::Place;
 use super::{Arm, Body};
 use crate::error::Faults;
-use crate::spec::{
-    ArmSpec, LinkUncertaintySpec, PayloadUncertaintySpec, SymmetricIntervalsSpec, UncertaintySpec,
-};
+use crate::spec::{ArmSpec, UncertaintySpec};
 
 /// Most uncertain numbers of inertia: their box has 2^10 vertices.
 pub const MOST_PARAMETERS: usize = 10;
-
-/// Rounding that passes where an interval must hold the arm's own value, relative to the values.
-const SLACK: f64 = 1e-9;
 
 /// One uncertain number of inertia u, counted from the arm's own value: u = 0 is the arm as specified.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +32,8 @@ pub struct Parameter {
 
 /// All arms of a specification.
 ///
-/// Holds: intervals are finite and hold the arm's own values; at most [`MOST_PARAMETERS`] parameters.
+/// Holds: intervals are finite, wider than a point and hold the arm's own values; at most [`MOST_PARAMETERS`]
+/// parameters.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Uncertainty {
     /// The uncertain numbers of inertia.
@@ -57,7 +54,8 @@ impl Uncertainty {
                 Body::from_com(p.mass, p.com, inertia)
             });
             let at = payload.at.or(own.payload.as_ref().map(|p| p.com));
-            let body = Given { at, ..Given::payload(payload) };
+            let mut body = Given::payload(payload);
+            body.at = at;
             out.parameters.extend(body.parameters("payload", last, &carried, &arm.tip, &place, faults));
         }
         for (index, link) in spec.links.iter().enumerate() {
@@ -73,6 +71,11 @@ impl Uncertainty {
                 );
                 continue;
             };
+            if spec.links[..index].iter().any(|other| other.joint == link.joint) {
+                let mend = "write its intervals in one place: the two would add up";
+                place.at("joint").fault(faults, format!("is {:?} once more", link.joint), mend);
+                continue;
+            }
             let joint = &arm.joints[number];
             let nominal = joint.body.moved(&joint.link.inverse());
             let given = Given::link(link);
@@ -104,6 +107,32 @@ impl Uncertainty {
         out
     }
 
+    /// `arm` without any inertia but what u_k = 1 adds: the model is linear in the inertial parameters, so its derivative
+    /// by u_k is the model of this one.
+    pub fn alone(&self, arm: &Arm, k: usize) -> Arm {
+        let mut out = arm.clone();
+        for joint in &mut out.joints {
+            (joint.body, joint.armature) = (Body::default(), 0.0);
+        }
+        let Parameter { joint, body, .. } = &self.parameters[k];
+        out.joints[*joint].body = *body;
+        out
+    }
+
+    /// max |base + Σ_k u_k slopes_k| over the box of all parameters, entry by entry.
+    pub fn largest(&self, base: &[f64], slopes: &[Vec<f64>]) -> Vec<f64> {
+        let entry = |i: usize| {
+            let (mut low, mut high) = (base[i], base[i]);
+            for (parameter, slope) in self.parameters.iter().zip(slopes) {
+                let ends = [parameter.low * slope[i], parameter.high * slope[i]];
+                low += ends[0].min(ends[1]);
+                high += ends[0].max(ends[1]);
+            }
+            high.max(-low)
+        };
+        (0..base.len()).map(entry).collect()
+    }
+
     /// The vertices of the box of all parameters: bit k of the index says which end of u_k.
     pub fn vertices(&self) -> impl Iterator<Item = Vec<f64>> + '_ {
         (0..1_usize << self.parameters.len()).map(|index| self.vertex(index))
@@ -129,107 +158,6 @@ impl Uncertainty {
     }
 }
 
-/// The intervals of one body.
-struct Given {
-    mass: Option<[f64; 2]>,
-    at: Option<[f64; 3]>,
-    first_moment: Option<[Option<[f64; 2]>; 3]>,
-    pseudo_inertia: Option<SymmetricIntervalsSpec>,
-}
-
-impl Given {
-    fn payload(spec: &PayloadUncertaintySpec) -> Self {
-        let PayloadUncertaintySpec { mass, at, first_moment, pseudo_inertia } = spec.clone();
-        Self { mass, at, first_moment, pseudo_inertia }
-    }
-
-    fn link(spec: &LinkUncertaintySpec) -> Self {
-        let LinkUncertaintySpec { mass, at, first_moment, pseudo_inertia, .. } = spec.clone();
-        Self { mass, at, first_moment, pseudo_inertia }
-    }
-
-    /// One parameter for each interval; `nominal` is the body in the frame of the intervals, which stands at `frame`
-    /// in the moved frame of joint number `joint`.
-    fn parameters(
-        &self,
-        name: &str,
-        joint: usize,
-        nominal: &Body,
-        frame: &super::Transform,
-        place: &Place,
-        faults: &mut Faults,
-    ) -> Vec<Parameter> {
-        let at = self.at.unwrap_or_default();
-        let mut numbers =
-            vec![("mass".to_string(), self.mass, nominal.mass, Body::from_com(1.0, at, [[0.0; 3]; 3]), true)];
-        for i in 0..3 {
-            let mut body = Body::default();
-            body.first_moment[i] = 1.0;
-            let range = self.first_moment.and_then(|m| m[i]);
-            numbers.push((format!("first_moment[{i}]"), range, nominal.first_moment[i], body, false));
-        }
-        let sigma = self.pseudo_inertia.clone().unwrap_or_default();
-        let entries = [
-            ("xx", sigma.xx, 0, 0),
-            ("yy", sigma.yy, 1, 1),
-            ("zz", sigma.zz, 2, 2),
-            ("xy", sigma.xy, 0, 1),
-            ("xz", sigma.xz, 0, 2),
-            ("yz", sigma.yz, 1, 2),
-        ];
-        for (entry, range, i, j) in entries {
-            let mut body = Body::default();
-            body.pseudo_inertia[i][j] = 1.0;
-            body.pseudo_inertia[j][i] = 1.0;
-            let field = format!("pseudo_inertia.{entry}");
-            numbers.push((field, range, nominal.pseudo_inertia[i][j], body, i == j));
-        }
-        if numbers.iter().all(|(_, range, ..)| range.is_none()) {
-            place.fault(faults, "names no uncertain number", "write an interval, such as `mass`");
-        }
-        if !at.iter().all(|v| v.is_finite()) {
-            place.at("at").fault(faults, format!("is {at:?}"), "write three finite numbers, in m");
-        }
-        let mut out = Vec::new();
-        for (field, range, value, body, grows) in numbers {
-            let Some(range) = range else { continue };
-            let not_negative = field == "mass";
-            let Some([low, high]) = about(range, value, not_negative, &place.at(&field), faults) else {
-                continue;
-            };
-            let name = format!("{name}.{field}");
-            out.push(Parameter { name, joint, body: body.moved(frame), nominal: value, low, high, grows });
-        }
-        out
-    }
-}
-
-/// The interval counted from `value`; a fault where it does not hold it.
-fn about(
-    range: [f64; 2],
-    value: f64,
-    not_negative: bool,
-    place: &Place,
-    faults: &mut Faults,
-) -> Option<[f64; 2]> {
-    let [low, high] = range;
-    let slack = SLACK * low.abs().max(high.abs()).max(value.abs());
-    if !(low.is_finite() && high.is_finite() && low <= high) {
-        place.fault(faults, format!("is {range:?}"), "write [lowest, highest], both finite");
-    } else if not_negative && low < 0.0 {
-        place.fault(faults, format!("is {range:?}"), "write numbers of at least 0");
-    } else if value < low - slack || high + slack < value {
-        place.fault(
-            faults,
-            format!("is {range:?}, which does not hold the arm's own {value}"),
-            "write an interval about the arm's own value, or change the arm",
-        );
-    } else {
-        return Some([(low - value).min(0.0), (high - value).max(0.0)]);
-    }
-    None
-}
-
 /// max |B − B̂| by joint.
 fn viscous(spec: &[Option<[f64; 2]>], arm: &Arm, place: &Place, faults: &mut Faults) -> Vec<f64> {
     if !spec.is_empty() && spec.len() != arm.dof() {
@@ -240,7 +168,8 @@ fn viscous(spec: &[Option<[f64; 2]>], arm: &Arm, place: &Place, faults: &mut Fau
     let mut widest = |(index, (range, joint)): (usize, (&Option<[f64; 2]>, &super::Joint))| {
         let Some(range) = range else { return 0.0 };
         let place = place.item(index);
-        about(*range, joint.viscous_friction, true, &place, faults).map_or(0.0, |[low, high]| high.max(-low))
+        let value = joint.viscous_friction;
+        about(*range, value, value, true, &place, faults).map_or(0.0, |[low, high]| high.max(-low))
     };
     spec.iter().zip(&arm.joints).enumerate().map(&mut widest).collect()
 }

@@ -21,6 +21,9 @@ use crate::reduction;
 /// Where expansions longer than this cannot compete with the recursion: its cost grows with n alone.
 const LONG: usize = 4000;
 
+/// Factors are sought in expansions up to this many terms: a longer one has lost against the recursion anyway.
+const SHORT: usize = 100;
+
 /// How a body computes the torque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
@@ -44,7 +47,10 @@ impl Form {
 pub fn exact(arm: &Arm, lagrangian: &Lagrangian) -> (Form, Graph) {
     let recursive = recursive(arm);
     if lagrangian.terms() <= LONG {
-        let expanded = expanded(arm, lagrangian, &reduction::exact(lagrangian));
+        let mut expanded = expanded(arm, lagrangian, &reduction::exact(lagrangian));
+        if lagrangian.terms() <= SHORT {
+            expanded = expanded.factored();
+        }
         if expanded.operations().arithmetic() < recursive.operations().arithmetic() {
             return (Form::Expanded, expanded);
         }

@@ -106,7 +106,9 @@ impl<'a> Expander<'a> {
         }
         let k = self.residual.polynomial.joints.len();
         // Rounded centres of cells stay inside.
-        let total: Vec<f64> = frame.total[..k].iter().map(|t| t * (1.0 + 1e-9) + 1e-12).collect();
+        let reach = &self.residual.reach;
+        let wider = |(t, reach): (&f64, &f64)| t * (1.0 + 1e-9) + 1e-12 * (1.0 + reach);
+        let total: Vec<f64> = frame.total.iter().zip(reach).map(wider).collect();
         let (mut remainder, mut slack) = self.beyond(&total, limit)?;
         let mut coefficients = self.derivatives(&frame.centre[..k]);
 

@@ -10,6 +10,7 @@ mod branch;
 mod envelope;
 mod estimate;
 mod expansion;
+mod factor;
 mod polynomial;
 mod recursion;
 mod region;
@@ -23,10 +24,11 @@ mod tests;
 mod torque;
 
 pub use estimate::estimate;
+pub use factor::{factor, factor_bounds};
 pub use recursion::recursion;
 pub use region::reach;
 pub use sines::with_sines;
-pub use torque::{Rates, peak_torque, torque_error};
+pub use torque::{Rates, largest_torque, peak_torque, torque_error};
 
 use rayon::prelude::*;
 

@@ -9,7 +9,7 @@ use super::polynomial::Scratch;
 use super::region::{Cell, Region, reach};
 use super::residual::Residual;
 use super::{Certificate, residuals, rounding};
-use crate::arm::Arm;
+use crate::arm::{Arm, Uncertainty};
 use crate::dynamics::inverse_dynamics;
 use crate::lagrangian::{Entry, Lagrangian};
 use crate::measure::Domain;
@@ -107,11 +107,19 @@ pub fn torque_error(
 
 /// Largest |τ| by joint along the motion, N·m or N, without friction.
 pub fn peak_torque(arm: &Arm, motion: &Motion) -> Vec<f64> {
+    largest_torque(arm, &Uncertainty::default(), motion)
+}
+
+/// The same of any arm of a family: τ is affine in the uncertain parameters.
+pub fn largest_torque(arm: &Arm, uncertainty: &Uncertainty, motion: &Motion) -> Vec<f64> {
+    let alone: Vec<Arm> = (0..uncertainty.parameters.len()).map(|k| uncertainty.alone(arm, k)).collect();
     let mut peak = vec![0.0_f64; arm.dof()];
     for k in 0..=INSTANTS {
         let target = motion.at(motion.duration() * f64::from(k) / f64::from(INSTANTS));
-        let torque = inverse_dynamics(arm, &target.q, &target.qd, &target.qdd);
-        peak.iter_mut().zip(torque).for_each(|(peak, tau)| *peak = peak.max(tau.abs()));
+        let torque = |arm: &Arm| inverse_dynamics(arm, &target.q, &target.qd, &target.qdd);
+        let slopes: Vec<Vec<f64>> = alone.iter().map(torque).collect();
+        let largest = uncertainty.largest(&torque(arm), &slopes);
+        peak.iter_mut().zip(largest).for_each(|(peak, tau)| *peak = peak.max(tau));
     }
     peak
 }

@@ -15,6 +15,7 @@ use crate::motion::Motion;
 use crate::sines::{COARSEST, FINEST};
 use crate::spec::{ModelSpec, Spec, TrigSpec};
 
+pub(crate) use shape::has;
 pub use shape::{matrix, vector};
 
 /// A specification that passed every check that needs no dynamics.

@@ -29,7 +29,7 @@ pub fn matrix(spec: &MatrixSpec, n: usize) -> Option<Vec<Vec<f64>>> {
 }
 
 /// "has 1 entry", "has 2 entries".
-pub(super) fn has(count: usize) -> String {
+pub(crate) fn has(count: usize) -> String {
     format!("has {count} {}", if count == 1 { "entry" } else { "entries" })
 }
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::{json, show_warnings};
 use crate::body::Form;
-use crate::bounds::{Bounds, Effort, Rates, estimate, peak_torque, torque_error};
+use crate::bounds::{Bounds, Effort, Rates, estimate, factor_bounds, peak_torque, torque_error};
 use crate::design::Envelope;
 use crate::emit::{domain_in_words, verdict};
 use crate::error::Error;
@@ -72,9 +72,13 @@ struct BoundsView<'a> {
     worst_ratio: f64,
     /// Equation (11); absent over a workspace.
     estimate: Option<EstimateView>,
+    /// The report's bounds for law `adaptive`, by a factor on those of the arm itself: not certified, and at times too
+    /// small. `null` where a number is uncertain that the arm itself has at zero.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    factor: Option<EstimateView>,
 }
 
-/// A quick estimate of the same quantities, not certified.
+/// Another account of the same quantities, not certified.
 #[derive(Serialize)]
 #[allow(non_snake_case, reason = "the report's letters are the keys")]
 struct EstimateView {
@@ -216,6 +220,7 @@ fn view(generation: &Generation) -> Inspection<'_> {
             C: design.as_ref().map(|design| design.delta_c.as_slice()),
             worst_ratio: generation.certificates.iter().map(|c| c.ratio()).fold(1.0, f64::max),
             estimate: estimated(generation),
+            factor: by_factor(generation),
         },
         torque_error: torque(generation),
         peak_torque: generation.motion.as_ref().map(|motion| peak_torque(arm, motion)),
@@ -263,6 +268,15 @@ fn diagonal(values: &[f64]) -> Vec<Vec<f64>> {
 fn estimated(generation: &Generation) -> Option<EstimateView> {
     let Generation { lagrangian, reduced, domain, motion, .. } = generation;
     let deltas = estimate(lagrangian, reduced, domain, motion.as_ref())?;
+    let Bounds { d, h, g, .. } = Bounds::new(lagrangian, &deltas);
+    Some(EstimateView { D: d, H: h, G: g })
+}
+
+fn by_factor(generation: &Generation) -> Option<EstimateView> {
+    let Generation { lagrangian, reduced, uncertainty, domain, motion, regression, .. } = generation;
+    regression.as_ref()?;
+    let motion = motion.as_ref();
+    let deltas = factor_bounds(lagrangian, reduced, uncertainty, domain, motion, &Effort::default());
     let Bounds { d, h, g, .. } = Bounds::new(lagrangian, &deltas);
     Some(EstimateView { D: d, H: h, G: g })
 }

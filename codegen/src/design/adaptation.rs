@@ -2,10 +2,11 @@
 
 use super::{Problem, checked};
 use crate::bounds::Rates;
-use crate::check::vector;
+use crate::check::{has, vector};
 use crate::error::Error;
 use crate::lagrangian::Lagrangian;
 use crate::reduction::Regression;
+use crate::spec::VectorSpec;
 
 /// The numbers of equation (49), one for each parameter θ_k.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,12 +43,21 @@ impl Adaptation {
         let spec = problem.control.adaptation.clone().unwrap_or_default();
         let Some(p_theta) = vector(&spec.p_theta, count) else {
             let mend = format!("write one number, or {count}, one for each parameter");
-            return refuse("control.adaptation.Ptheta", "has another number of entries".to_string(), mend);
+            let found = match &spec.p_theta {
+                VectorSpec::List(list) => has(list.len()),
+                VectorSpec::Scalar(_) => String::new(),
+            };
+            return refuse("control.adaptation.Ptheta", found, mend);
         };
+        let rate: Vec<f64> = p_theta.iter().map(|p| 1.0 / p).collect();
+        if !rate.iter().all(|rate| rate.is_finite()) {
+            let mend = "write larger numbers: its inverse is the rate of learning".to_string();
+            return refuse("control.adaptation.Ptheta", "has an inverse that overflows".to_string(), mend);
+        }
         let list = |of: fn(&crate::reduction::Learnt) -> f64| parameters.iter().map(of).collect();
         Ok(Some(Self {
             names: parameters.iter().map(|p| p.name.clone()).collect(),
-            rate: p_theta.iter().map(|p| 1.0 / p).collect(),
+            rate,
             low: list(|p| p.low),
             high: list(|p| p.high),
             initial: list(|p| p.initial),

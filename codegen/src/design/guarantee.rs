@@ -1,14 +1,12 @@
 //! What is promised of the closed loop, and why not where nothing is.
 
 use super::adaptation::{Adaptation, Learning, regression};
+use super::feedforward::{beyond_torque_limits, lag};
 use super::inertia::Inertia;
 use super::reach::{Course, Envelope, InertiaBounds, fastest, inertia_bounds, initial_level, total};
 use super::region::{cells, outside, reach, start, width};
 use super::{Problem, family};
-use crate::arm::Arm;
-use crate::bounds::peak_torque;
 use crate::error::Error;
-use crate::motion::Motion;
 
 /// Halvings of the interval in which the largest initial error lies.
 const HALVINGS: u32 = 30;
@@ -63,34 +61,25 @@ pub(super) struct Parts<'a> {
     pub(super) initial: [Vec<f64>; 2],
     pub(super) adaptation: Option<&'a Adaptation>,
     pub(super) delta_c1: Option<&'a [Vec<f64>]>,
+    /// The bounds on D, where the same gains were judged before.
+    pub(super) facts: Option<&'a InertiaBounds>,
     /// Pass over final error, largest initial error and smallest tube, which a comparison of gains does not need.
     pub(super) sketch: bool,
 }
 
-/// The joints whose torque limit is less than what the desired motion alone takes.
-///
-/// That no limit cuts in during a transient is not judged: the guarantee supposes it.
-pub(super) fn beyond_torque_limits(arm: &Arm, motion: &Motion) -> Vec<String> {
-    let limits = arm.joints.iter().map(|joint| joint.limits.torque);
-    (1..)
-        .zip(peak_torque(arm, motion).into_iter().zip(limits))
-        .filter_map(|(number, (peak, limit))| {
-            let limit = limit.filter(|&limit| peak >= limit)?;
-            Some(format!("the desired motion takes {peak:.4} of joint {number}, its torque limit is {limit}"))
-        })
-        .collect()
-}
-
 impl Parts<'_> {
     pub(super) fn judge(self) -> Result<Judgement, Error> {
-        let Problem { arm, domain, motion, bounds, control, lagrangian, .. } = *self.problem;
+        let Problem { arm, domain, motion, bounds, control, lagrangian, uncertainty, .. } = *self.problem;
         let n = arm.dof();
         let own = width(domain, n).unwrap_or(vec![0.0; n]);
         let over = cells(domain, motion, &own);
         let wide: Vec<f64> = own.iter().zip(&self.initial[0]).map(|(a, b)| a.max(*b).max(1.0)).collect();
         let reach = reach(&cells(domain, motion, &wide), n);
-        let inertia = Inertia::of_family(arm, self.problem.uncertainty, lagrangian, &reach);
-        let facts = inertia_bounds(&inertia, over.clone(), self.gains, &self.form);
+        let inertia = Inertia::of_family(arm, uncertainty, lagrangian, &reach);
+        let facts = match self.facts {
+            Some(facts) => facts.clone(),
+            None => inertia_bounds(&inertia, over.clone(), self.gains, &self.form),
+        };
         let [position, velocity] = &self.initial;
         let level = |position: &[f64]| {
             let cell = start(domain, motion, position);
@@ -134,7 +123,8 @@ impl Parts<'_> {
                 self.tuning.period
             ));
         }
-        reasons.extend(motion.map_or(Vec::new(), |motion| beyond_torque_limits(arm, motion)));
+        let beyond = |motion| beyond_torque_limits(arm, uncertainty, motion);
+        reasons.extend(motion.map_or(Vec::new(), beyond));
         let chatter = course.ball(&load, true) + course.parameter_energy();
         if control.law.is_robust() && self.layer().is_none() && chatter > envelope.level {
             reasons.push(format!(
@@ -174,7 +164,7 @@ impl Parts<'_> {
     }
 
     fn course<'b>(&'b self, inertia: &'b InertiaBounds, reach: &[f64]) -> Result<Course<'b>, Error> {
-        let Problem { arm, motion, bounds, control, .. } = *self.problem;
+        let Problem { arm, motion, bounds, control, uncertainty, .. } = *self.problem;
         let limit = |of: fn(&crate::arm::Limits) -> Option<f64>| -> Vec<f64> {
             arm.joints.iter().map(|joint| of(&joint.limits).unwrap_or(0.0)).collect()
         };
@@ -193,7 +183,8 @@ impl Parts<'_> {
             disturbance: self.disturbance,
             layer: self.layer(),
             period: self.tuning.period,
-            lag: motion.map_or_else(|| vec![0.0; arm.dof()], |m| super::lag(arm, m, self.tuning.period)),
+            lag: motion
+                .map_or_else(|| vec![0.0; arm.dof()], |m| lag(arm, uncertainty, m, self.tuning.period)),
             learning: self.adaptation.map(learning).transpose()?,
         })
     }

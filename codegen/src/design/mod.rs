@@ -2,6 +2,7 @@
 
 mod adaptation;
 mod family;
+mod feedforward;
 mod gains;
 mod guarantee;
 mod inertia;
@@ -10,6 +11,7 @@ mod reach;
 mod region;
 mod rest;
 mod search;
+mod settling;
 #[cfg(test)]
 mod tests;
 mod tuning;
@@ -28,7 +30,6 @@ pub use tuning::Tuning;
 use crate::arm::{Arm, Uncertainty};
 use crate::bounds::Bounds;
 use crate::check::{matrix, vector};
-use crate::dynamics::inverse_dynamics;
 use crate::error::{Error, Faults};
 use crate::lagrangian::Lagrangian;
 use crate::measure::Domain;
@@ -116,7 +117,7 @@ pub fn design(problem: &Problem) -> Result<Design, Error> {
     let coulomb = |joint: &crate::arm::Joint| {
         if control.compensate_coulomb { joint.coulomb_friction } else { [0.0; 2] }
     };
-    let (gains, judgement) = stage.judge(&tuning, false)?;
+    let (gains, judgement) = stage.judge(&tuning)?;
     let guarantee::Judgement { envelope, delta_c, k_star, delta_c1, guarantee, .. } = judgement;
     let design = Design {
         law: control.law,
@@ -176,9 +177,22 @@ impl<'a> Stage<'a> {
         })
     }
 
-    /// The gain matrices of `tuning` and what they promise; a `sketch` passes over what a comparison of gains
-    /// does not need.
-    fn judge(&self, tuning: &Tuning, sketch: bool) -> Result<(Gains, guarantee::Judgement), Error> {
+    /// The gain matrices of `tuning` and what they promise.
+    fn judge(&self, tuning: &Tuning) -> Result<(Gains, guarantee::Judgement), Error> {
+        self.judged(tuning, false, None)
+    }
+
+    /// As much of a judgement as a comparison of gains needs; `facts` are those of the same gains with another layer.
+    fn sketch(&self, tuning: &Tuning, facts: Option<&InertiaBounds>) -> Result<guarantee::Judgement, Error> {
+        self.judged(tuning, true, facts).map(|(_, judgement)| judgement)
+    }
+
+    fn judged(
+        &self,
+        tuning: &Tuning,
+        sketch: bool,
+        facts: Option<&InertiaBounds>,
+    ) -> Result<(Gains, guarantee::Judgement), Error> {
         let gains = Gains::new(tuning);
         let form = if gains.is_finite() { reach::Form::new(&gains) } else { None };
         let form = form.ok_or_else(|| {
@@ -194,6 +208,7 @@ impl<'a> Stage<'a> {
             initial: self.initial.clone(),
             delta_c1: self.delta_c1.as_deref(),
             adaptation: self.adaptation.as_ref(),
+            facts,
             sketch,
         }
         .judge()?;
@@ -254,23 +269,6 @@ impl Design {
             );
         }
     }
-}
-
-/// Instants at which the feedforward torque is looked at.
-const INSTANTS: u32 = 400;
-
-/// The most by which the torque along the motion itself changes during one period, by joint: what a held torque lags.
-fn lag(arm: &Arm, motion: &Motion, period: f64) -> Vec<f64> {
-    let step = motion.duration() / f64::from(INSTANTS);
-    let torque = |k: u32| -> Vec<f64> {
-        let target = motion.at(step * f64::from(k));
-        let torque = inverse_dynamics(arm, &target.q, &target.qd, &target.qdd);
-        let friction = arm.joints.iter().zip(&target.qd).map(|(joint, qd)| joint.viscous_friction * qd);
-        torque.iter().zip(friction).map(|(torque, friction)| torque + friction).collect()
-    };
-    let torques: Vec<Vec<f64>> = (0..=INSTANTS).map(torque).collect();
-    let most = |i: usize| torques.windows(2).map(|pair| (pair[1][i] - pair[0][i]).abs()).fold(0.0, f64::max);
-    (0..arm.dof()).map(|i| most(i) * period / step).collect()
 }
 
 /// What the specification's check has left in order.

@@ -335,15 +335,24 @@ pub(super) fn total(damping: &[Vec<f64>], more: &[Vec<f64>], slope: &[f64]) -> V
     rows(&sum)
 }
 
-/// max ½ xᵀ M x over |x_i| ≤ b_i: the form is convex, so a corner attains it, and the opposite one too.
+/// max ½ xᵀ M x over |x_i| ≤ b_i: the form is convex, so a corner attains it, and the opposite one too. The corners are
+/// visited so that each differs from the one before in one sign, and the rounding that gathers on the way is added.
 fn largest_form(m: &DMatrix<f64>, b: &[f64]) -> f64 {
+    const GATHERED: f64 = 1e-12;
     let n = b.len();
-    let corner = |signs: usize| -> f64 {
-        let x: Vec<f64> = (0..n).map(|i| if signs >> i & 1 == 1 { -b[i] } else { b[i] }).collect();
-        let row = |i: usize| -> f64 { (0..n).map(|j| m[(i, j)] * x[j]).sum() };
-        0.5 * (0..n).map(|i| x[i] * row(i)).sum::<f64>()
-    };
-    (0..1_usize << n.saturating_sub(1)).map(corner).fold(0.0, f64::max)
+    let mut x = b.to_vec();
+    let mut rows: Vec<f64> = (0..n).map(|i| (0..n).map(|j| m[(i, j)] * x[j]).sum()).collect();
+    let value = |x: &[f64], rows: &[f64]| 0.5 * x.iter().zip(rows).map(|(x, row)| x * row).sum::<f64>();
+    let mut most = value(&x, &rows).max(0.0);
+    for corner in 1..1_usize << n.saturating_sub(1) {
+        let i = corner.trailing_zeros() as usize;
+        x[i] = -x[i];
+        for (j, row) in rows.iter_mut().enumerate() {
+            *row += 2.0 * m[(j, i)] * x[i];
+        }
+        most = most.max(value(&x, &rows));
+    }
+    most * (1.0 + GATHERED)
 }
 
 /// Σ |a_i| b_i.

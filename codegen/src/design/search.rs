@@ -25,6 +25,9 @@ const STEPS: i32 = 50;
 const HALVINGS: u32 = 6;
 const SOFTEST: f64 = 1.0 / 256.0;
 
+/// Errors relative to the room from which a hasty search does not go on.
+const FAR: f64 = 2.0;
+
 /// What the gains are to achieve.
 pub(super) struct Target {
     /// Time in which a position error falls to 1/20, s.
@@ -66,8 +69,8 @@ pub(super) struct Candidate {
 
 /// The arm as the search sees it.
 pub(super) struct Scene<'a> {
-    stage: &'a Stage<'a>,
-    target: &'a Target,
+    pub(super) stage: &'a Stage<'a>,
+    pub(super) target: &'a Target,
     /// Largest (D⁻¹)_ii and d_ii over the domain.
     mobility: Vec<f64>,
     heaviest: Vec<f64>,
@@ -96,9 +99,16 @@ impl<'a> Scene<'a> {
         Self { stage, target, mobility, heaviest, coupling, certified }
     }
 
-    /// Gains for `period` that hold, or those that come nearest; `None` where none are fast enough.
-    pub(super) fn find(&self, period: f64) -> Result<Option<Candidate>, Error> {
-        let Some((mix, firmest)) = self.firmest(period)? else { return Ok(None) };
+    /// The same arm before another target.
+    pub(super) fn for_target<'b>(&'b self, target: &'b Target) -> Scene<'b> {
+        let (mobility, heaviest) = (self.mobility.clone(), self.heaviest.clone());
+        Scene { target, mobility, heaviest, ..*self }
+    }
+
+    /// Gains for `period` that hold and with which each joint by itself is fast enough, or those that come nearest;
+    /// `None` where none are fast enough. In haste the search ends where it begins far off.
+    pub(super) fn find_each(&self, period: f64, hasty: bool) -> Result<Option<Candidate>, Error> {
+        let Some((mix, firmest)) = self.firmest(period, hasty)? else { return Ok(None) };
         if !firmest.holds {
             return Ok(Some(firmest));
         }
@@ -117,31 +127,35 @@ impl<'a> Scene<'a> {
     }
 
     /// The best mix of the most gain that the period bears.
-    pub(super) fn firmest(&self, period: f64) -> Result<Option<(Mix, Candidate)>, Error> {
+    pub(super) fn firmest(&self, period: f64, hasty: bool) -> Result<Option<(Mix, Candidate)>, Error> {
         let none = vec![0.0; self.mobility.len()];
         let mut best: Option<(Mix, Candidate)> = None;
-        let consider = |mix: Mix, best: &mut Option<(Mix, Candidate)>| -> Result<(), Error> {
-            let enough = best.as_ref().map_or(f64::INFINITY, |(_, candidate)| candidate.score);
+        let consider = |best: &mut Option<(Mix, Candidate)>, change: &dyn Fn(Mix) -> Mix| {
+            let (mix, enough) = match best {
+                Some((mix, candidate)) => (*mix, candidate.score),
+                None => (START, f64::INFINITY),
+            };
+            let mix = change(mix);
             if let Some(candidate) = self.candidate(period, 1.0, mix, &none, enough)?
-                && best.as_ref().is_none_or(|(_, other)| candidate.score < other.score)
+                && (candidate.score < enough || best.is_none())
             {
                 *best = Some((mix, candidate));
             }
-            Ok(())
+            Ok::<(), Error>(())
         };
-        consider(START, &mut best)?;
-        for _ in 0..2 {
+        for round in 0..2 {
+            for graded in GRADED {
+                consider(&mut best, &|mix| Mix { graded, ..mix })?;
+            }
+            let far = best.as_ref().is_none_or(|(_, candidate)| candidate.reach > FAR);
+            if hasty && round == 0 && far {
+                break;
+            }
             for linear in LINEAR {
-                let mix = best.as_ref().map_or(START, |(mix, _)| *mix);
-                consider(Mix { linear, ..mix }, &mut best)?;
+                consider(&mut best, &|mix| Mix { linear, ..mix })?;
             }
             for stiff in STIFF {
-                let mix = best.as_ref().map_or(START, |(mix, _)| *mix);
-                consider(Mix { stiff, ..mix }, &mut best)?;
-            }
-            for graded in GRADED {
-                let mix = best.as_ref().map_or(START, |(mix, _)| *mix);
-                consider(Mix { graded, ..mix }, &mut best)?;
+                consider(&mut best, &|mix| Mix { stiff, ..mix })?;
             }
             if best.as_ref().is_some_and(|(_, candidate)| candidate.holds) {
                 break;
@@ -162,11 +176,13 @@ impl<'a> Scene<'a> {
         enough: f64,
     ) -> Result<Option<Candidate>, Error> {
         let mut rho = rho.to_vec();
-        let mut last = None;
+        let mut last: Option<Candidate> = None;
         for _ in 0..ROUNDS {
             let Some(tuning) = self.tuning(period, gain, mix, &rho) else { break };
-            let judged = match self.stage.judge(&tuning, true) {
-                Ok((_, judged)) => judged,
+            // Only the layer differs from round to round.
+            let facts = last.as_ref().map(|candidate| &candidate.judged.guarantee.inertia);
+            let judged = match self.stage.sketch(&tuning, facts) {
+                Ok(judged) => judged,
                 Err(Error::Input(_)) => break,
                 Err(other) => return Err(other),
             };
@@ -248,8 +264,7 @@ impl<'a> Scene<'a> {
         let none = vec![0.0; self.mobility.len()];
         (1..200).map(|k| self.target.time * power(STEP, k)).find(|&time| {
             let target = Target { time, room: self.target.room.clone() };
-            let (mobility, heaviest) = (self.mobility.clone(), self.heaviest.clone());
-            let scene = Scene { target: &target, mobility, heaviest, ..*self };
+            let scene = self.for_target(&target);
             STIFF.into_iter().any(|stiff| scene.tuning(period, 1.0, Mix { stiff, ..START }, &none).is_some())
         })
     }

@@ -1,8 +1,9 @@
 //! What a specification asks of the gains: gains that achieve it, or what stands in the way.
 
+use super::feedforward::beyond_torque_limits;
 use super::region::{outside, room, width};
 use super::search::{Candidate, Scene, Target};
-use super::{Stage, Tuning, checked, guarantee};
+use super::{Stage, Tuning, checked};
 use crate::check::vector;
 use crate::error::{Error, Faults};
 use crate::spec::{DesignSpec, VectorSpec};
@@ -20,7 +21,7 @@ const STALLED: f64 = 0.97;
 /// # Errors
 /// [`Error::Input`] with what cannot be met, and by how much.
 pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
-    let super::Problem { file, arm, domain, motion, .. } = *stage.problem;
+    let super::Problem { file, arm, domain, motion, uncertainty, .. } = *stage.problem;
     let n = arm.dof();
     let tube = |tube| checked("control.design.tube", vector(tube, n));
     let own = room(domain, motion, arm);
@@ -31,7 +32,9 @@ pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
     let mut faults = Faults::of(file);
     let scene = Scene::new(stage, &target);
     let mut hopeless = outside(domain, motion, arm, &vec![0.0; n]);
-    hopeless.extend(motion.map_or(Vec::new(), |motion| guarantee::beyond_torque_limits(arm, motion)));
+    hopeless.extend(motion.map_or(Vec::new(), |motion| beyond_torque_limits(arm, uncertainty, motion)));
+    let closed = (1..).zip(&own).filter(|(_, room)| **room <= 0.0);
+    hopeless.extend(closed.map(|(number, _)| format!("joint {number} has no room for errors")));
     if !scene.certified {
         hopeless.push("the bounds on D over the domain cannot be certified".to_string());
     }
@@ -57,7 +60,7 @@ pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
     let periods = wish.period.map_or(PERIODS.to_vec(), |period| vec![period]);
     let mut nearest: Option<Candidate> = None;
     for &period in &periods {
-        let Some(candidate) = scene.find(period)? else { continue };
+        let Some(candidate) = scene.find(period, wish.period.is_none())? else { continue };
         if candidate.holds {
             return Ok(candidate.tuning);
         }
@@ -135,7 +138,7 @@ fn too_narrow(
             "take a smaller initial error, or widen it together with `measure.tube.position_error`",
         ),
         None => {
-            let (_, judged) = stage.judge(&nearest.tuning, false)?;
+            let (_, judged) = stage.judge(&nearest.tuning)?;
             let most = &judged.guarantee.initial_error_max;
             let less = most.iter().map(|e| format!("{:.3e}", e * 0.9995)).collect::<Vec<_>>().join(", ");
             faults.push(
@@ -155,7 +158,7 @@ fn longest(scene: &Scene, period: f64) -> Result<Option<f64>, Error> {
     let (mut good, mut found, mut before) = (period, false, f64::INFINITY);
     for _ in 0..HALVINGS {
         good = two_digits(0.5 * good);
-        let Some((_, candidate)) = scene.firmest(good)? else { continue };
+        let Some((_, candidate)) = scene.firmest(good, false)? else { continue };
         found = candidate.holds;
         // Where more gain no longer helps, none will.
         if found || (before.is_finite() && candidate.reach > STALLED * before) {
@@ -164,7 +167,7 @@ fn longest(scene: &Scene, period: f64) -> Result<Option<f64>, Error> {
         before = candidate.reach;
     }
     let holds = |trial: f64| -> Result<bool, Error> {
-        Ok(scene.firmest(trial)?.is_some_and(|(_, candidate)| candidate.holds))
+        Ok(scene.firmest(trial, false)?.is_some_and(|(_, candidate)| candidate.holds))
     };
     let mut bad = (2.0 * good).min(period);
     for _ in 0..NEARER {

@@ -1,4 +1,4 @@
-//! Rigid-body dynamics by one recursion: in f64 it is the oracle, over graph nodes it becomes code.
+//! Rigid-body dynamics by one plain recursion: the oracle for everything that is faster.
 
 mod model;
 mod recursion;

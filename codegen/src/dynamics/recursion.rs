@@ -4,7 +4,7 @@
 //! ½(x·y_r + x_r·y) turns it into the symmetric bilinear form, and since h_ijk is symmetric in j and k
 //! that form is unique: one pass yields D a_r + C(q, q̇) v_r + G with the Christoffel C.
 
-use super::scalar::{Scalar, Vector, add, apply, cross, lift, named};
+use super::scalar::{Scalar, Vector, add, apply, cross, lift};
 use crate::arm::{Arm, Joint, JointKind};
 
 /// Where a joint stands, in the form its kind needs.
@@ -57,24 +57,17 @@ pub fn passivity_torque<S: Scalar>(
         gradient: [zero; 3],
     };
     let mut wrenches = Vec::with_capacity(arm.dof());
-    for (number, ((((joint, &q), &qd), &v_r), &a_r)) in
-        (1..).zip(arm.joints.iter().zip(q).zip(qd).zip(v_r).zip(a_r))
-    {
-        let mut moved = advance(joint, &parent, q, qd, v_r, a_r);
-        moved.velocity = named(moved.velocity, "w", number);
-        moved.reference = named(moved.reference, "wr", number);
-        moved.angular = named(moved.angular, "wd", number);
-        moved.linear = named(moved.linear, "a", number);
+    for ((((joint, &q), &qd), &v_r), &a_r) in arm.joints.iter().zip(q).zip(qd).zip(v_r).zip(a_r) {
+        let moved = advance(joint, &parent, q, qd, v_r, a_r);
         wrenches.push(wrench(joint, &moved));
         parent = moved;
     }
     let mut torque = Vec::with_capacity(wrenches.len());
     let mut carried = (zero, zero);
-    for (number, (((joint, &q), &(force, moment)), &a_r)) in
-        (1..).zip(arm.joints.iter().zip(q).zip(&wrenches).zip(a_r)).collect::<Vec<_>>().into_iter().rev()
-    {
-        let force = named(add(force, carried.0), "f", number);
-        let moment = named(add(moment, carried.1), "n", number);
+    let links: Vec<_> = arm.joints.iter().zip(q).zip(&wrenches).zip(a_r).collect();
+    for (((joint, &q), &(force, moment)), &a_r) in links.into_iter().rev() {
+        let force = add(force, carried.0);
+        let moment = add(moment, carried.1);
         let along = match joint.kind {
             JointKind::Revolute => moment[2],
             JointKind::Prismatic => force[2],

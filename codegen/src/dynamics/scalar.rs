@@ -8,11 +8,6 @@ pub trait Scalar:
 {
     /// The constant `x` in the ring that `self` belongs to.
     fn constant(self, x: f64) -> Self;
-
-    /// A hint for the reader of generated code; numbers ignore it.
-    fn named(self, _name: impl FnOnce() -> String) -> Self {
-        self
-    }
 }
 
 impl Scalar for f64 {
@@ -47,9 +42,4 @@ pub(super) fn apply<S: Scalar>(m: &[Vector<S>; 3], x: Vector<S>) -> Vector<S> {
 /// The constant vector `x`, in the ring of `like`.
 pub(super) fn lift<S: Scalar>(like: S, x: [f64; 3]) -> Vector<S> {
     x.map(|value| like.constant(value))
-}
-
-/// Names the components `prefix_x`, `prefix_y`, `prefix_z`.
-pub(super) fn named<S: Scalar>(v: Vector<S>, prefix: &str, joint: usize) -> Vector<S> {
-    std::array::from_fn(|i| v[i].named(|| format!("{prefix}{joint}_{}", ["x", "y", "z"][i])))
 }

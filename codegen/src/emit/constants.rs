@@ -38,7 +38,7 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
         #(#counts)*
         /// Diagonal of B, N·m·s/rad or N·s/m.
         pub const VISCOUS_FRICTION: [f64; #n] = #viscous;
-        /// ΔD, Δh, ΔB and ΔG of the simplified coefficients, certified over the domain that the model's documentation names.
+        /// ΔD, Δh, ΔB and ΔG, certified over the domain, and for all arms, that the model's documentation names.
         pub const BOUNDS: ::gramforge_runtime::Bounds<f64, #n> = #bounds;
     })
 }

@@ -49,23 +49,66 @@ pub(super) fn model(module: &Module) -> Vec<String> {
         lines.push(format!(" The exact model costs {}: {}", cost(&exact), verdict(&operations, &exact)));
         lines.push(String::new());
         lines.push(format!(
-            " Domain of the bounds: {}. They are certified, rounding in f64 included; coefficients that are not \
-             simplified are exact but for rounding and for terms below 1e-12 of the largest, and count as {}.",
+            " Domain of the bounds: {}. They are certified, rounding in f64 included; {}{}.",
             domain(module.domain),
-            if sines.rounds() { "zero" } else { "that and the error of the sines" }
+            not_simplified(module),
+            if sines.rounds() { "" } else { ", but for the error of the sines, which is in every bound" }
         ));
-    } else if !sines.rounds() {
+    } else if !sines.rounds() && !moved(module) {
         lines.push(format!(
             " Nothing is left out but terms below 1e-12 of the largest, so the bounds are those of the sines' error. Domain \
              of the bounds: {}.",
             domain(module.domain)
         ));
+    } else if moved(module) {
+        lines.push(format!(" Domain of the bounds: {}; {}.", domain(module.domain), not_simplified(module)));
     } else {
         lines.push(
             " Nothing is left out but rounding and terms below 1e-12 of the largest, so the bounds are zero."
                 .to_string(),
         );
     }
+    lines.extend(uncertain(module));
+    lines
+}
+
+/// Whether uncertain numbers move coefficients of a model that does not follow them.
+fn moved(module: &Module) -> bool {
+    module.regressor.is_none() && !module.uncertainty.parameters.is_empty()
+}
+
+/// What is left out of coefficients that are not simplified.
+fn not_simplified(module: &Module) -> &'static str {
+    if moved(module) {
+        "coefficients that are not simplified are those of the arm as specified but for rounding and for terms below \
+         1e-12 of the largest, and their bounds hold what the uncertain numbers move them by"
+    } else {
+        "coefficients that are not simplified are exact but for rounding and for terms below 1e-12 of the largest, \
+         and count as zero"
+    }
+}
+
+/// The uncertain numbers, a line each, in the units of the specification.
+fn uncertain(module: &Module) -> Vec<String> {
+    let Module { arm, uncertainty, .. } = module;
+    if uncertainty.is_empty() {
+        return Vec::new();
+    }
+    let follows = if module.regressor.is_some() {
+        " Uncertain numbers; the bounds are those of the model that has learnt them, whatever they are:"
+    } else {
+        " Uncertain numbers; the bounds hold for all of them:"
+    };
+    let mut lines = vec![String::new(), follows.to_string(), String::new()];
+    lines.extend(uncertainty.parameters.iter().map(|p| {
+        let (low, high) = (p.nominal + p.low, p.nominal + p.high);
+        format!(" - `{}`, joint {}: {low} to {high}, {} as specified", p.name, p.joint + 1, p.nominal)
+    }));
+    let viscous =
+        uncertainty.viscous.iter().zip(&arm.joints).enumerate().filter(|(_, (width, _))| **width > 0.0);
+    lines.extend(viscous.map(|(j, (width, joint))| {
+        format!(" - viscous friction, joint {}: up to {width} beside {}", j + 1, joint.viscous_friction)
+    }));
     lines
 }
 

@@ -13,7 +13,7 @@ pub(crate) use docs::{domain as domain_in_words, verdict};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
-use crate::arm::Arm;
+use crate::arm::{Arm, Uncertainty};
 use crate::body::{Form, Regressor};
 use crate::bounds::Bounds;
 use crate::design::Design;
@@ -33,6 +33,8 @@ pub struct Module<'a> {
     pub hash: &'a str,
     /// The arm.
     pub arm: &'a Arm,
+    /// All arms that the bounds hold for.
+    pub uncertainty: &'a Uncertainty,
     /// The exact model.
     pub lagrangian: &'a Lagrangian,
     /// The model that is emitted.

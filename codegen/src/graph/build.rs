@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::Graph;
@@ -20,7 +21,33 @@ struct State {
     nodes: Vec<Node>,
     names: Vec<Option<Name>>,
     // Only looked up, never iterated: its order cannot reach the output.
-    known: HashMap<Node, NodeId>,
+    known: HashMap<Node, NodeId, BuildHasherDefault<Mixer>>,
+}
+
+/// Multiply and rotate: nodes are small, many, and no adversary chooses them.
+#[derive(Debug, Default)]
+struct Mixer(u64);
+
+impl Hasher for Mixer {
+    fn finish(&self) -> u64 {
+        self.0 ^ (self.0 >> 32)
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&byte| self.write_u64(u64::from(byte)));
+    }
+
+    fn write_u64(&mut self, x: u64) {
+        self.0 = (self.0.rotate_left(5) ^ x).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+
+    fn write_usize(&mut self, x: usize) {
+        self.write_u64(x as u64);
+    }
+
+    fn write_isize(&mut self, x: isize) {
+        self.write_u64(x as u64);
+    }
 }
 
 /// A handle on a node: copy it, add it, multiply it.
@@ -251,12 +278,5 @@ impl Neg for Expr<'_> {
 impl Scalar for Expr<'_> {
     fn constant(self, x: f64) -> Self {
         self.builder.constant(x)
-    }
-
-    fn named(self, name: impl FnOnce() -> String) -> Self {
-        if self.is_constant() {
-            return self;
-        }
-        Expr::named(self, &name(), false)
     }
 }

@@ -44,6 +44,14 @@ impl Graph {
         count
     }
 
+    /// True where every constant is a finite number.
+    pub fn is_finite(&self) -> bool {
+        self.nodes.iter().all(|node| match *node {
+            Node::Constant(bits) => f64::from_bits(bits).is_finite(),
+            _ => true,
+        })
+    }
+
     /// How often each node is used, by other nodes or as an output.
     pub fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.nodes.len()];

@@ -1,7 +1,9 @@
-//! Straight-line expression graph: built with ordinary operators, folded and shared on the way, counted, interpreted.
+//! Straight-line expression graph: built with ordinary operators, folded and shared on the way, factored,
+//! counted, interpreted.
 
 mod build;
 mod count;
+mod factor;
 mod interpret;
 mod node;
 #[cfg(test)]

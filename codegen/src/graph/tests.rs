@@ -75,6 +75,21 @@ fn sign_kept_in_a_literal_stays_there() {
     assert_eq!(value(&g), -3.0 * 1.7 + 0.3);
 }
 
+#[test]
+fn common_factors_and_partial_sums_are_computed_once() {
+    let cases = [
+        // 3y·(x + y)
+        (graph(|x, y| x.constant(3.0) * x * y + x.constant(3.0) * y * y), 3),
+        // with x + y shared
+        (graph(|x, y| (x + (y + x.constant(1.0))) * x - ((x + x.constant(2.0)) + y) * y), 6),
+    ];
+    for (g, operations) in cases {
+        let factored = g.factored();
+        assert_eq!(factored.operations().arithmetic(), operations, "{factored:?}");
+        assert!((value(&factored) - value(&g)).abs() < 1e-14);
+    }
+}
+
 /// Random trees: the folded graph agrees with plain arithmetic, up to the rounding that folding constants and moving
 /// signs leaves alone: none.
 #[test]

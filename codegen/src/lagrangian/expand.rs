@@ -8,7 +8,7 @@ use super::Lagrangian;
 use super::coefficients::{Entry, Layers, distinct};
 use super::function::{Function, MAX_JOINTS};
 use super::transform::{Axis, grid_point, grid_size, transform};
-use crate::arm::{Arm, Body, JointKind, Uncertainty};
+use crate::arm::{Arm, JointKind, Uncertainty};
 use crate::dynamics::{gravity, mass_matrix};
 
 /// What is below this fraction of the largest coefficient is rounding error of the transform.
@@ -30,14 +30,7 @@ pub fn expand(arm: &Arm) -> Lagrangian {
 /// one is the model of an arm that has that parameter alone.
 pub fn expand_family(arm: &Arm, uncertainty: &Uncertainty) -> Lagrangian {
     let mut layers = vec![entries(arm)];
-    for parameter in &uncertainty.parameters {
-        let mut alone = arm.clone();
-        for joint in &mut alone.joints {
-            (joint.body, joint.armature) = (Body::default(), 0.0);
-        }
-        alone.joints[parameter.joint].body = parameter.body;
-        layers.push(entries(&alone));
-    }
+    layers.extend((0..uncertainty.parameters.len()).map(|k| entries(&uncertainty.alone(arm, k))));
     let truncation = layers.iter().map(|(_, truncation)| *truncation).collect();
     let mut columns: Vec<_> = layers.into_iter().map(|(entries, _)| entries.into_iter()).collect();
     let names: Vec<Entry> = names(arm.dof());

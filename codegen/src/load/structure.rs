@@ -95,6 +95,7 @@ impl<'a> Explainer<'a> {
                     .pointer(&format!("/properties/{name}"))
                     .unwrap_or(&Value::Null);
                 let meaning = wanted.get("description").and_then(Value::as_str).unwrap_or_default();
+                let meaning = meaning.split("\n\n").next().unwrap_or_default().replace('\n', " ");
                 let mut mend = format!("write {}", describe(self.schema, wanted));
                 if !meaning.is_empty() {
                     mend.push_str(&format!(" ({})", meaning.trim_end_matches('.')));

@@ -37,22 +37,18 @@ pub fn figures(runs: &Figures) -> Result<Vec<(String, String)>, Error> {
     let each = |panel: fn([&Run; 2], &Joint, usize) -> Panel, pair: [&Run; 2]| {
         runs.joints.iter().enumerate().map(|(i, joint)| vec![panel(pair, joint, i)]).collect()
     };
-    let kinds: [(u32, &str, [&str; 2], Vec<Vec<Panel>>, [&Run; 2]); 5] = [
-        (2, "Trajectories", ["desired", models[1]], trajectories(runs), nominal),
-        (3, "Joint torques, nominal load", models, each(torque_panel, nominal), nominal),
-        (4, "Tracking errors, nominal load", models, each(error_panel, nominal), nominal),
-        (5, "Joint torques, load +20 %", laws, each(torque_panel, loaded), loaded),
-        (6, "Tracking errors, load +20 %", laws, each(error_panel, loaded), loaded),
-    ];
-    kinds
-        .into_iter()
-        .map(|(number, title, legend, rows, pair)| {
-            let title = format!("Figure {number}: {title}");
-            let legend = legend.map(str::to_string);
-            let figure = Figure { title: &title, legend, rows, end: end(pair) };
-            Ok((format!("figure{number}.svg"), figure.svg()?))
-        })
-        .collect()
+    let draw = |number: u32, title: &str, legend: [&str; 2], rows: Vec<Vec<Panel>>, pair: [&Run; 2]| {
+        let title = format!("Figure {number}: {title}");
+        let figure = Figure { title: &title, legend: legend.map(str::to_string), rows, end: end(pair) };
+        Ok((format!("figure{number}.svg"), figure.svg()?))
+    };
+    Ok(vec![
+        draw(2, "Trajectories", ["desired", models[1]], trajectories(runs), nominal)?,
+        draw(3, "Joint torques, nominal load", models, each(torque_panel, nominal), nominal)?,
+        draw(4, "Tracking errors, nominal load", models, each(error_panel, nominal), nominal)?,
+        draw(5, "Joint torques, load +20 %", laws, each(torque_panel, loaded), loaded)?,
+        draw(6, "Tracking errors, load +20 %", laws, each(error_panel, loaded), loaded)?,
+    ])
 }
 
 /// Desired and actual position by joint.

@@ -3,7 +3,9 @@
 //! The angle is x = k·π/2 + r with k the integer nearest to 2x/π, so that |r| ≤ π/4. π/2 is held in two parts: P₁ so
 //! short that k P₁ and x − k P₁ are exact, and P₂ = π/2 − P₁ (Cody and Waite). With y = (x − k P₁) − k P₂ and z = y²,
 //!
-//!     sin y ≈ y + y z S(z)      cos y ≈ 1 + z C(z)
+//! ```text
+//! sin y ≈ y + y z S(z)      cos y ≈ 1 + z C(z)
+//! ```
 //!
 //! where S and C make the largest error on |y| ≤ π/4 least (Remez, each coefficient rounded before the next is
 //! fitted); k mod 4 says which of ±sin y and ±cos y is wanted. Multiplications and additions alone, in a fixed order.

@@ -3,7 +3,9 @@
 //! The angle is x = θ_k + δ, θ_k = 2πk/N the nearest node. The derivatives of a sine are in the table anyway, since
 //! it holds the cosine, so interpolation takes Taylor's polynomial about the node:
 //!
-//!     sin x ≈ sin θ_k (1 − δ²/2) + cos θ_k δ      cos x ≈ cos θ_k (1 − δ²/2) − sin θ_k δ
+//! ```text
+//! sin x ≈ sin θ_k (1 − δ²/2) + cos θ_k δ      cos x ≈ cos θ_k (1 − δ²/2) − sin θ_k δ
+//! ```
 //!
 //! with an error of |δ|³/6, |δ| ≤ π/N, in either: sizes double for an error eight times less. δ comes from the
 //! reduction of [`Polynomial`](super::Polynomial), its π/2 scaled by 4/N, which is exact.

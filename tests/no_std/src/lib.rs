@@ -6,7 +6,7 @@
 
 use core::panic::PanicInfo;
 
-use gramforge_generated::puma560_xi12 as puma;
+use gramforge_generated::{arm3_adaptive, puma560_xi12 as puma};
 use gramforge_runtime::reference::Reference;
 
 #[panic_handler]
@@ -21,4 +21,16 @@ pub fn step(q: &[f64; 6], qd: &[f64; 6], t: f64) -> [f64; 6] {
         Ok(command) => command.torque,
         Err(fault) => fault.command,
     }
+}
+
+/// One step of a law that learns, from what it had learnt; what it has learnt then.
+pub fn learn(theta: &mut [f64; arm3_adaptive::PARAMETERS], q: &[f64; 3], qd: &[f64; 3], t: f64) -> [f64; 3] {
+    let Ok(mut controller) = arm3_adaptive::controller() else { return [0.0; 3] };
+    controller.restore(*theta);
+    let torque = match controller.step(q, qd, &arm3_adaptive::REFERENCE.at(t)) {
+        Ok(command) => command.torque,
+        Err(fault) => fault.command,
+    };
+    *theta = *controller.law_state();
+    torque
 }

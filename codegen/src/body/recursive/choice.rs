@@ -1,6 +1,6 @@
 //! What the recursion leaves open: equal values by different ways, of which the search takes the cheapest.
 
-use crate::arm::{Along, Mass, Origin};
+use crate::arm::{Along, Kept, Mass, Offset, Origin};
 
 /// How one link is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -8,8 +8,14 @@ pub(super) struct Choice {
     /// A joint parallel to the one before turns from the frame in which that one has not turned yet, by the sum of both
     /// angles.
     pub sum: bool,
-    /// The body's wrench stands in the frame that has not turned, and its parameters turn instead.
-    pub still_body: bool,
+    /// Σ turns into the frame that has not turned, and the moments it gives stand there.
+    pub still_sigma: bool,
+    /// The same for the force that the first moment gives.
+    pub still_force: bool,
+    /// The same for the moment that the first moment and the acceleration of the origin give.
+    pub still_pull: bool,
+    /// The part of Σ that is round about z stays in the frame that has not turned.
+    pub round: Round,
     /// The lever to the next joint is swept in the frame that has not turned.
     pub still_lever: bool,
     /// Last row of the gradient.
@@ -24,12 +30,22 @@ pub(super) struct Choice {
     pub mixed: bool,
     /// Moment along z by the mixed velocity product and the angular acceleration.
     pub axial: bool,
-    /// What the body keeps of its mass.
-    pub mass: Mass,
-    /// What the body keeps of its Σ_zz.
-    pub along: Along,
+    /// What the body keeps.
+    pub kept: Kept,
     /// Where its frame stands.
     pub origin: Origin,
+}
+
+/// How much of Σ_xx and Σ_yy counts as round about z.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Round {
+    /// None.
+    #[default]
+    None,
+    /// Σ_xx.
+    X,
+    /// Σ_yy.
+    Y,
 }
 
 /// Ways to the last row of the gradient, which is not that of the parent.
@@ -71,9 +87,12 @@ pub(super) enum Corner {
 /// Every other choice for one link that differs from `choice` in one respect, in a fixed order.
 pub(super) fn neighbours(choice: &Choice) -> Vec<Choice> {
     let c = *choice;
+    let k = c.kept;
     let mut all = vec![
         Choice { sum: !c.sum, ..c },
-        Choice { still_body: !c.still_body, ..c },
+        Choice { still_sigma: !c.still_sigma, ..c },
+        Choice { still_force: !c.still_force, ..c },
+        Choice { still_pull: !c.still_pull, ..c },
         Choice { still_lever: !c.still_lever, ..c },
         Choice { afresh: !c.afresh, ..c },
         Choice { mixed: !c.mixed, ..c },
@@ -84,17 +103,27 @@ pub(super) fn neighbours(choice: &Choice) -> Vec<Choice> {
         [Diagonal::Trace, Diagonal::Squares, Diagonal::Turned].map(|diagonal| Choice { diagonal, ..c }),
     );
     all.extend([Corner::Sum, Corner::Halves, Corner::Turned].map(|corner| Choice { corner, ..c }));
-    all.extend([Mass::None, Mass::ForX, Mass::ForY].map(|mass| Choice { mass, ..c }));
-    all.extend([Along::None, Along::LikeX, Along::LikeY].map(|along| Choice { along, ..c }));
+    all.extend([Round::None, Round::X, Round::Y].map(|round| Choice { round, ..c }));
+    let kept = |kept: Kept| Choice { kept, ..c };
+    all.extend([Mass::None, Mass::ForX, Mass::ForY].map(|mass| kept(Kept { mass, ..k })));
+    all.extend([Offset::None, Offset::ForX, Offset::ForY].map(|offset| kept(Kept { offset, ..k })));
+    all.extend([Along::None, Along::LikeX, Along::LikeY].map(|along| kept(Kept { along, ..k })));
     all.extend([Origin::Next, Origin::Before, Origin::Given].map(|origin| Choice { origin, ..c }));
-    // Two at once where one alone rarely pays.
+    // Several at once where one alone rarely pays.
+    let still = !c.still_sigma;
     all.extend([
-        Choice { sum: !c.sum, still_body: !c.still_body, ..c },
+        Choice { sum: !c.sum, still_sigma: still, still_force: still, still_pull: still, ..c },
+        Choice { still_sigma: still, still_force: still, still_pull: still, ..c },
+        Choice { still_force: !c.still_force, still_pull: !c.still_pull, ..c },
         Choice { diagonal: Diagonal::Turned, corner: Corner::Turned, ..c },
         Choice { diagonal: Diagonal::Turned, corner: Corner::Turned, row: Row::Still, ..c },
         Choice { diagonal: Diagonal::Turned, corner: Corner::Turned, afresh: true, ..c },
-        Choice { along: Along::LikeX, mixed: !c.mixed, ..c },
-        Choice { along: Along::LikeY, mixed: !c.mixed, ..c },
+        Choice { kept: Kept { along: Along::LikeX, ..k }, mixed: !c.mixed, ..c },
+        Choice { kept: Kept { along: Along::LikeY, ..k }, mixed: !c.mixed, ..c },
+        Choice { kept: Kept { along: Along::LikeX, ..k }, mixed: true, round: Round::X, ..c },
+        Choice { kept: Kept { along: Along::LikeY, ..k }, mixed: true, round: Round::Y, ..c },
+        Choice { kept: Kept { mass: Mass::ForX, offset: Offset::ForY, ..k }, ..c },
+        Choice { kept: Kept { mass: Mass::ForY, offset: Offset::ForX, ..k }, ..c },
     ]);
     all.retain(|other| other != choice);
     all

@@ -8,23 +8,27 @@ mod wrench;
 
 pub use search::recursive;
 
-use crate::arm::{Arm, JointKind};
+use crate::arm::{Arm, Joint, JointKind};
 use crate::graph::{Builder, Expr, Graph, Variable};
 use choice::Choice;
 use motion::{Frame, Motion, Products, Step, advance, to_parent};
 use vector::{Turn, Vector, transposed};
-use wrench::{Wrench, own};
+use wrench::{Units, Wrench, own};
 
-/// The recursion over a placed and regrouped arm, each link as `choices` says; lengths in units of `unit`.
-fn build(arm: &Arm, choices: &[Choice], unit: f64) -> Graph {
+/// The recursion over a placed and regrouped arm, each link as `choices` says; in `units`, which must be
+/// metres for an arm with a prismatic joint. With `names` for whom the graph is written out.
+fn build(arm: &Arm, choices: &[Choice], units: &Units, names: bool) -> Graph {
     let builder = Builder::new();
     let steps: Vec<Step> =
-        arm.joints.iter().zip(choices).enumerate().map(|(j, _)| step(&builder, arm, j, choices)).collect();
-    let mut motions = vec![base(&builder, arm)];
+        (0..arm.dof()).map(|j| step(&builder, &arm.joints[j], j, &choices[j], units)).collect();
+    let mut motions = vec![base(&builder, arm, units)];
     for (j, step) in steps.iter().enumerate() {
         let before = j.checked_sub(1).map_or(Choice::default(), |i| choices[i]);
         let motion = advance(&motions[j], step, &before, &choices[j]);
-        motions.push(named(motion, j + 1));
+        if names {
+            name_motion(&motion, j + 1);
+        }
+        motions.push(motion);
     }
     let zero = builder.constant(0.0);
     let mut torques = Vec::new();
@@ -33,17 +37,20 @@ fn build(arm: &Arm, choices: &[Choice], unit: f64) -> Graph {
     for j in (0..arm.dof()).rev() {
         let (joint, step, choice) = (&arm.joints[j], &steps[j], &choices[j]);
         let motion = &motions[j + 1];
-        let (own_still, own_turned) = own(&joint.body, motion, choice);
-        let inner = name(turned.plus(&own_turned), j + 1);
+        let (own_still, own_turned) = own(&joint.body, motion, choice, units);
+        let inner = turned.plus(&own_turned);
         let outer = still.plus(&own_still);
         let whole = match &motion.turn {
-            Some(turn) => name(inner.outward(turn).plus(&outer), j + 1),
+            Some(turn) => inner.outward(turn).plus(&outer),
             None => inner.plus(&outer),
         };
+        if names {
+            name_wrench(&inner, j + 1);
+            name_wrench(&whole, j + 1);
+        }
         let along = match joint.kind {
             JointKind::Revolute => whole.moment[2],
-            // Forces stand in units of N·m per unit of length.
-            JointKind::Prismatic => builder.constant(1.0 / unit) * whole.force[2],
+            JointKind::Prismatic => whole.force[2],
         };
         torques.push(along + builder.constant(joint.armature) * builder.input(Variable::Ar(j)));
         let whole = match (joint.kind, step.q) {
@@ -53,8 +60,8 @@ fn build(arm: &Arm, choices: &[Choice], unit: f64) -> Graph {
         let seen = Wrench { force: to_parent(step, whole.force), moment: to_parent(step, whole.moment) };
         (still, turned) = (Wrench::zero(zero), Wrench::zero(zero));
         match (choice.sum, motions[j].turn) {
-            (true, Some(turn)) => still = seen.about(turn.outward(step.origin)),
-            _ => turned = seen.about(step.origin),
+            (true, Some(turn)) => still = seen.about(turn.outward(step.lever)),
+            _ => turned = seen.about(step.lever),
         }
     }
     torques.reverse();
@@ -64,20 +71,19 @@ fn build(arm: &Arm, choices: &[Choice], unit: f64) -> Graph {
 }
 
 /// The base at rest: it is accelerated against gravity.
-fn base<'g>(builder: &'g Builder, arm: &Arm) -> Motion<'g> {
+fn base<'g>(builder: &'g Builder, arm: &Arm, units: &Units) -> Motion<'g> {
     let zero = builder.constant(0.0);
     let frame = Frame {
         w: [zero; 3],
         r: [zero; 3],
         h: [[zero; 3]; 3],
-        a: arm.gravity.map(|g| builder.constant(0.0 - g)),
+        a: arm.gravity.map(|g| builder.constant((0.0 - g) / units.acceleration)),
     };
     let products = Products { xy: zero, xz: zero, yz: zero, spin: zero };
     Motion { still: frame, still_products: products, turned: frame, turned_products: products, turn: None }
 }
 
-fn step<'g>(builder: &'g Builder, arm: &Arm, j: usize, choices: &[Choice]) -> Step<'g> {
-    let joint = &arm.joints[j];
+fn step<'g>(builder: &'g Builder, joint: &Joint, j: usize, choice: &Choice, units: &Units) -> Step<'g> {
     let (mut axes, offset) = split(&joint.pose.rotation);
     let mut own = match joint.kind {
         JointKind::Revolute => {
@@ -87,7 +93,7 @@ fn step<'g>(builder: &'g Builder, arm: &Arm, j: usize, choices: &[Choice]) -> St
         JointKind::Prismatic => None,
     };
     // A sum of angles needs the constant one between them to stand with the joint's own, and so does a skew offset.
-    let summed = choices[j].sum;
+    let summed = choice.sum;
     let skew = joint.pose.rotation.iter().flatten().any(|entry| entry.fract() != 0.0);
     match own {
         Some(turn) if summed || skew => own = Some(offset_turn(builder, offset).then(&turn)),
@@ -98,7 +104,8 @@ fn step<'g>(builder: &'g Builder, arm: &Arm, j: usize, choices: &[Choice]) -> St
         kind: joint.kind,
         axes,
         own,
-        origin: joint.pose.translation.map(|p| builder.constant(p)),
+        origin: joint.pose.translation.map(|p| builder.constant(p / units.acceleration)),
+        lever: joint.pose.translation.map(|p| builder.constant(p / units.force)),
         q: (joint.kind == JointKind::Prismatic).then(|| builder.input(Variable::Q(j))),
         qd: builder.input(Variable::Qd(j)),
         vr: builder.input(Variable::Vr(j)),
@@ -129,7 +136,7 @@ fn split(r: &[[f64; 3]; 3]) -> ([[f64; 3]; 3], [f64; 2]) {
     (axes, [tidy(entry(1, 0)), tidy(entry(0, 0))])
 }
 
-fn named(motion: Motion<'_>, number: usize) -> Motion<'_> {
+fn name_motion(motion: &Motion<'_>, number: usize) {
     let put = |x: Vector<'_>, prefix: &str| {
         for (component, axis) in x.into_iter().zip(["x", "y", "z"]) {
             component.hint(|| format!("{prefix}{number}_{axis}"));
@@ -149,19 +156,16 @@ fn named(motion: Motion<'_>, number: usize) -> Motion<'_> {
         turn.sin.hint(|| format!("sin{number}"));
         turn.cos.hint(|| format!("cos{number}"));
     }
-    motion
 }
 
-fn name(wrench: Wrench<'_>, number: usize) -> Wrench<'_> {
+fn name_wrench(wrench: &Wrench<'_>, number: usize) {
     for (x, prefix) in [(wrench.force, "f"), (wrench.moment, "n")] {
         for (component, axis) in x.into_iter().zip(["x", "y", "z"]) {
             component.hint(|| format!("{prefix}{number}_{axis}"));
         }
     }
-    wrench
 }
 
-// Expressions used above.
 impl<'g> Expr<'g> {
     /// Names a node that is no constant.
     fn hint(self, name: impl FnOnce() -> String) {

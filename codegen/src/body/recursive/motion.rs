@@ -56,8 +56,10 @@ pub(super) struct Step<'g> {
     pub axes: [[f64; 3]; 3],
     /// Turn from the still to the own frame by the joint alone.
     pub own: Option<Turn<'g>>,
-    /// Origin in the parent's own frame, at q = 0 of a prismatic joint.
+    /// Origin in the parent's own frame, at q = 0 of a prismatic joint, in the unit of accelerations.
     pub origin: Vector<'g>,
+    /// The same in the unit of forces.
+    pub lever: Vector<'g>,
     pub q: Option<Expr<'g>>,
     pub qd: Expr<'g>,
     pub vr: Expr<'g>,

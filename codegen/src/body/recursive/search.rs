@@ -2,6 +2,7 @@
 
 use super::build;
 use super::choice::{Choice, neighbours};
+use super::wrench::Units;
 use crate::arm::{Arm, JointKind};
 use crate::graph::Graph;
 
@@ -10,7 +11,8 @@ const TRIG: usize = 30;
 
 /// The recursion with the fewest operations that a descent finds: link by link, one choice at a time, until none pays.
 pub fn recursive(arm: &Arm) -> Graph {
-    let mut best = Candidate::new(arm, vec![Choice::default(); arm.dof()], 1.0);
+    let metres = Units { acceleration: 1.0, force: 1.0 };
+    let mut best = Candidate::new(arm, vec![Choice::default(); arm.dof()], metres);
     for _ in 0..SWEEPS {
         let before = best.cost;
         for j in 0..arm.dof() {
@@ -20,45 +22,58 @@ pub fn recursive(arm: &Arm) -> Graph {
                 }
                 let mut choices = best.choices.clone();
                 choices[j] = choice;
-                let next = Candidate::new(arm, choices, best.unit);
-                if next.cost < best.cost {
-                    best = next;
-                }
+                best.take_cheaper(Candidate::new(arm, choices, best.units));
             }
         }
-        for unit in units(arm, &best) {
-            let next = Candidate::new(arm, best.choices.clone(), unit);
-            if next.cost < best.cost {
-                best = next;
+        for unit in lengths(arm, &best) {
+            for units in [
+                Units { acceleration: unit, ..best.units },
+                Units { force: unit, ..best.units },
+                Units { acceleration: unit, force: unit },
+            ] {
+                best.take_cheaper(Candidate::new(arm, best.choices.clone(), units));
             }
         }
         if best.cost == before {
             break;
         }
     }
-    best.graph
+    if best.cost == usize::MAX {
+        // Its numbers leave no room for moving parameters; they stay where they are.
+        return build(arm, &best.choices, &metres, true);
+    }
+    build(&based(arm, &best.choices), &best.choices, &best.units, true).factored()
 }
 
 const SWEEPS: usize = 6;
 
 struct Candidate {
     choices: Vec<Choice>,
-    unit: f64,
-    graph: Graph,
+    units: Units,
     cost: usize,
 }
 
 impl Candidate {
-    fn new(arm: &Arm, choices: Vec<Choice>, unit: f64) -> Self {
-        let origins: Vec<_> = choices.iter().map(|choice| choice.origin).collect();
-        let kept: Vec<_> = choices.iter().map(|choice| (choice.mass, choice.along)).collect();
-        let arm = arm.placed(&origins).regrouped_keeping(&kept);
-        let arm = if unit == 1.0 { arm } else { arm.in_units_of(unit) };
-        let graph = build(&arm, &choices, unit);
+    fn new(arm: &Arm, choices: Vec<Choice>, units: Units) -> Self {
+        let graph = build(&based(arm, &choices), &choices, &units, false);
         let operations = graph.operations();
         let cost = operations.arithmetic() + TRIG * operations.trig_pairs;
-        Self { choices, unit, graph, cost }
+        let cost = if graph.is_finite() { cost } else { usize::MAX };
+        Self { choices, units, cost }
     }
+
+    fn take_cheaper(&mut self, other: Self) {
+        if other.cost < self.cost {
+            *self = other;
+        }
+    }
+}
+
+/// The arm with its frames placed and its parameters regrouped.
+fn based(arm: &Arm, choices: &[Choice]) -> Arm {
+    let origins: Vec<_> = choices.iter().map(|choice| choice.origin).collect();
+    let kept: Vec<_> = choices.iter().map(|choice| choice.kept).collect();
+    arm.placed(&origins).regrouped_keeping(&kept)
 }
 
 /// A joint parallel to a revolute one before it.
@@ -66,17 +81,17 @@ fn may_sum(arm: &Arm, j: usize) -> bool {
     j > 0 && arm.joints[j].pose.rotation[2][2].abs() == 1.0 && arm.joints[j - 1].kind == JointKind::Revolute
 }
 
-/// Lengths and the gravity of the arm, each of which becomes 1 where it is the unit.
-fn units(arm: &Arm, best: &Candidate) -> Vec<f64> {
+/// Lengths that make a constant 1 where they are the unit; none where a prismatic joint moves by metres.
+fn lengths(arm: &Arm, best: &Candidate) -> Vec<f64> {
     if arm.joints.iter().any(|joint| joint.kind == JointKind::Prismatic) {
         return Vec::new();
     }
-    let origins: Vec<_> = best.choices.iter().map(|choice| choice.origin).collect();
-    let placed = arm.placed(&origins);
-    let lengths = placed.joints.iter().flat_map(|joint| joint.pose.translation).chain(arm.gravity);
-    let mut units: Vec<f64> = lengths.map(f64::abs).filter(|&x| x != 0.0).collect();
-    units.push(1.0);
-    units.sort_by(f64::total_cmp);
-    units.dedup();
-    units
+    let based = based(arm, &best.choices);
+    let offsets = based.joints.iter().flat_map(|joint| joint.pose.translation);
+    let moments = based.joints.iter().flat_map(|joint| joint.body.first_moment).map(|s| 1.0 / s);
+    let all = offsets.chain(arm.gravity).chain(moments).chain([1.0]);
+    let mut all: Vec<f64> = all.map(f64::abs).filter(|x| *x != 0.0 && x.is_finite()).collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    all
 }
