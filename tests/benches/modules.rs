@@ -2,6 +2,8 @@
 //!
 //! Instructions, which repeat on a busy machine as nanoseconds do not, are counted by `tests/peers/compare.py`.
 
+#![allow(missing_docs, reason = "`criterion_group!` makes a function without any")]
+
 use std::hint::black_box;
 use std::time::Duration;
 

@@ -1,5 +1,7 @@
 //! What the stages of generation cost: `cargo bench -p gramforge-tests --bench stages [-- NAME]`.
 
+#![allow(missing_docs, reason = "`criterion_group!` makes a function without any")]
+
 use std::hint::black_box;
 use std::time::Duration;
 
