@@ -1,0 +1,79 @@
+"""The arms of the comparison, from the joint models in tests/data/truth, and the states they are measured at."""
+
+import json
+import random
+from pathlib import Path
+
+TESTS = Path(__file__).resolve().parent.parent
+ROOT = TESTS.parent
+
+# Name of the reference values, specification that describes the same arm, name in the table.
+ARMS = {
+    "threedof": ("generated/specs/arm3_exact.json", "three-link arm"),
+    "puma560": ("generated/specs/puma560_exact.json", "PUMA 560"),
+    "stanford": ("tests/data/stanford.json", "Stanford arm"),
+    "ur5": ("tests/data/ur5.json", "UR5"),
+    "panda": ("tests/data/panda.json", "Panda"),
+}
+
+STATES = 512
+SPEED, ACCELERATION = 2.0, 10.0
+
+# Right angles written with few digits leave entries such as 5e-12 in a rotation; as zeros they cost nothing.
+SNAP = 1e-11
+
+
+class Arm:
+    """A chain of joints along or about coordinate axes, with inertia about each body's own centre of mass."""
+
+    def __init__(self, name):
+        self.name = name
+        truth = json.loads((TESTS / "data/truth" / f"{name}.json").read_text())
+        self.n = truth["n"]
+        self.gravity = truth["conventions"]["gravity_vector"]
+        self.joints = truth["joints"]
+        self.armature = truth.get("motor_inertia", {}).get("G2Jm", [0.0] * self.n)
+        for joint in self.joints:
+            joint["R"] = [[snapped(x) for x in row] for row in joint["R"]]
+            assert sorted(joint["axis"]) == [0.0, 0.0, 1.0], "joints turn about coordinate axes"
+            joint["along"] = joint["axis"].index(1.0)
+
+    def numbers(self):
+        """The model as lines of numbers, for the programs in C++."""
+        lines = [[self.n, *self.gravity]]
+        for joint, armature in zip(self.joints, self.armature):
+            kind = 0 if joint["type"] == "R" else 1
+            rotation, inertia = sum(joint["R"], []), sum(joint["I_com"], [])
+            lines.append(
+                [kind, joint["along"], *rotation, *joint["p"], joint["mass"], *joint["com"], *inertia, armature]
+            )
+        return text(lines)
+
+    def states(self):
+        """Random q within the limits, q̇, v_r and a_r, one state a line; the same at every run."""
+        draw = random.Random(1992)
+        limits = [joint["qlim"] for joint in self.joints]
+        lines = []
+        for _ in range(STATES):
+            q = [draw.uniform(low, high) for low, high in limits]
+            rest = [[draw.uniform(-most, most) for _ in limits] for most in (SPEED, SPEED, ACCELERATION)]
+            lines.append(sum(rest, q))
+        return text(lines)
+
+
+def specification(name, trig):
+    """The specification of the arm's exact model, and nothing else that would take time to generate."""
+    source = ROOT / ARMS[name][0]
+    spec = json.loads(source.read_text())
+    if "urdf" in spec["arm"]:
+        spec["arm"]["urdf"] = str(source.parent / spec["arm"]["urdf"])
+    kept = {"name": f"{name}_{trig}", "arm": spec["arm"], "motion": spec["motion"], "model": "exact"}
+    return kept if trig == "libm" else kept | {"emit": {"trig": trig}}
+
+
+def snapped(x):
+    return 0.0 if abs(x) < SNAP else float(round(x)) if abs(x - round(x)) < SNAP else x
+
+
+def text(lines):
+    return "".join(" ".join(repr(x) for x in line) + "\n" for line in lines)

@@ -1,0 +1,69 @@
+"""The comparison as Markdown."""
+
+from arms import ARMS
+
+INVERSE = "MuJoCo, mj_inverse (no v_r)"
+OURS, CASADI = "Gramforge exact", "CasADi C"
+
+
+def markdown(result):
+    """A summary for README, then every figure, then what was measured with."""
+    parts = [summary(result), details(result), footnotes(result)]
+    return "\n\n".join("\n".join(lines) for lines in parts) + "\n"
+
+
+def summary(result):
+    """Instructions and operations, one column an arm; below, ours as fractions of each CasADi row."""
+    tables = {name: {row["implementation"]: row for row in rows} for name, rows in result["arms"].items()}
+    titles = list(next(iter(tables.values())))
+    lines = line(["instructions a call (operations)", *(ARMS[name][1] for name in tables)])
+    lines += line(["---"] * (1 + len(tables)))
+    for title in titles:
+        rows = [table[title] for table in tables.values()]
+        operations = [f" ({number(row['operations'])})" if "operations" in row else "" for row in rows]
+        lines += line([title, *(number(row["instructions"]) + count for row, count in zip(rows, operations))])
+    ours = [title for title in titles if title.startswith(OURS)]
+    for peer in [title for title in titles if title.startswith(CASADI)]:
+        for title in ours:
+            parts = [table[title]["instructions"] / table[peer]["instructions"] for table in tables.values()]
+            lines += line([f"{title} / {peer}", *(f"{part:.2f}" for part in parts)])
+    return lines
+
+
+def details(result):
+    """Every figure, one row an implementation and arm."""
+    heads = ["arm", "implementation", "instructions", "operations", "ns, median (quartiles)", "code bytes"]
+    lines = line([*heads, "generation, CPU s"]) + line(["---"] * 7)
+    for name, rows in result["arms"].items():
+        for k, row in enumerate(rows):
+            low, high = row["ns"]["quartiles"]
+            cells = [
+                ARMS[name][1] if k == 0 else "",
+                row["implementation"],
+                number(row["instructions"]),
+                number(row.get("operations")),
+                f"{number(row['ns']['median'])} ({number(low)}–{number(high)})",
+                number(row["code_bytes"]),
+                f"{row['seconds']:.2g}" if "seconds" in row else "–",
+            ]
+            lines += line(cells)
+    return lines
+
+
+def footnotes(result):
+    """Versions, what is missing, agreement."""
+    versions = ", ".join(f"{name} {version}" for name, version in result["versions"].items())
+    lines = [f"{versions}; {', '.join(result['tools'])}; compiled for `{result['processor']}`."]
+    lines += [f"`{name}` is missing: {reason}." for name, reason in result["missing"].items()]
+    most = max(row["deviation"] for rows in result["arms"].values() for row in rows)
+    lines.append(f"Largest deviation of any torque from the first row of its arm: {most:.1e} of the largest torque.")
+    return lines
+
+
+def line(cells):
+    return [f"| {' | '.join(cells)} |"]
+
+
+def number(x):
+    """1234.5 as 1 234 with a narrow space; nothing known is a dash."""
+    return "–" if x is None else f"{x:,.0f}".replace(",", "\u202f")
