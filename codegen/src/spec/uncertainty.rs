@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{LawSpec, VectorSpec};
+use super::VectorSpec;
 
 /// Parameters that are known only to intervals, each `[lowest, highest]` with the arm's own value between them.
 ///
@@ -116,16 +116,4 @@ pub enum ParametersSpec {
 
 fn one() -> VectorSpec {
     VectorSpec::Scalar(1.0)
-}
-
-impl LawSpec {
-    /// Whether the law outweighs what its model leaves out.
-    pub fn is_robust(self) -> bool {
-        self != LawSpec::Exact
-    }
-
-    /// Whether the law has the bracket of equation (34).
-    pub fn has_bracket(self) -> bool {
-        matches!(self, LawSpec::Report | LawSpec::Adaptive)
-    }
 }
