@@ -225,8 +225,7 @@ fn a_spent_budget_still_leaves_a_certificate() {
 #[test]
 #[ignore = "minutes; see the command above"]
 fn full_workspace() {
-    let effort = Effort { boxes: 300_000, ..Effort::default() };
-    check(&generation("tests/data/puma560_workspace.json", &effort), &FULL);
+    check(&generation("tests/data/puma560_workspace.json", &Effort::default()), &FULL);
 }
 
 #[test]

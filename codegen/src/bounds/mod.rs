@@ -64,7 +64,7 @@ pub struct Effort {
 impl Default for Effort {
     /// What generation spends.
     fn default() -> Self {
-        Self { tolerance: 0.01, boxes: 100_000, starts: 12, seek_tube: false }
+        Self { tolerance: 0.01, boxes: 300_000, starts: 12, seek_tube: false }
     }
 }
 
