@@ -165,7 +165,7 @@ impl ::gramforge_runtime::AdaptiveModel<3, 1> for Arm3Adaptive {
 /// Largest initial position error for which that domain is enough, other reasons apart: (0.000000, 0.000000, 0.000000).
 ///
 /// Not guaranteed, because:
-/// - no level of V is found that the law keeps it below: raise W or Omega, or narrow the boundary layer
+/// - no level of V is found that the law keeps it below: raise W or Omega, narrow the boundary layer or the intervals of uncertainty, or lower Ptheta
 /// - the period of 0.001 s is longer than the 4.608e-4 s up to which the sampled loop is stable
 /// - the error of joint 1 may reach 1.1741, the tube holds 0.2000; the error of joint 2 may reach 0.6960, the tube holds 0.2000; the error of joint 3 may reach 1.2807, the tube holds 0.2000
 pub const GUARANTEED: bool = false;

@@ -117,7 +117,7 @@ pub(super) fn about(
     let size = low.abs().max(high.abs()).max(size);
     let slack = SLACK * size;
     if !(low.is_finite() && high.is_finite() && low <= high) {
-        place.fault(faults, format!("is {range:?}"), "write [lowest, highest], both finite");
+        place.fault(faults, format!("is {range:?}"), "write two finite numbers, the lowest first");
     } else if not_negative && low < 0.0 {
         place.fault(faults, format!("is {range:?}"), "write numbers of at least 0");
     } else if value < low - slack || high + slack < value {

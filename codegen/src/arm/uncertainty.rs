@@ -5,6 +5,7 @@ use std::path::Path;
 use super::intervals::{Given, about};
 use super::place::Place;
 use super::{Arm, Body};
+use crate::check::has;
 use crate::error::Faults;
 use crate::spec::{ArmSpec, UncertaintySpec};
 
@@ -162,7 +163,7 @@ impl Uncertainty {
 fn viscous(spec: &[Option<[f64; 2]>], arm: &Arm, place: &Place, faults: &mut Faults) -> Vec<f64> {
     if !spec.is_empty() && spec.len() != arm.dof() {
         let mend = format!("write {}, one for each joint, `null` where it is known", arm.dof());
-        place.fault(faults, format!("has {} entries", spec.len()), mend);
+        place.fault(faults, has(spec.len()), mend);
         return Vec::new();
     }
     let mut widest = |(index, (range, joint)): (usize, (&Option<[f64; 2]>, &super::Joint))| {

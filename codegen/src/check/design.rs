@@ -4,6 +4,12 @@ use super::shape::{entries, vector};
 use crate::error::Faults;
 use crate::spec::{ControlSpec, MeasureSpec, Spec, VectorSpec};
 
+/// Convergence times and periods that an arm may have, s.
+const TIMES: [f64; 2] = [1e-3, 1e4];
+const PERIODS: [f64; 2] = [1e-6, 1.0];
+/// Narrowest tube, rad or m.
+const LEAST: f64 = 1e-6;
+
 /// Checks that the gains are either given or asked for, and that what is asked for lies inside the measure.
 pub(super) fn check(control: &ControlSpec, spec: &Spec, joints: Option<usize>, faults: &mut Faults) {
     let given = [
@@ -28,19 +34,22 @@ pub(super) fn check(control: &ControlSpec, spec: &Spec, joints: Option<usize>, f
         };
         faults.push(format!("control.{name}"), "is given while `control.design` asks for it", mend);
     }
-    if wish.convergence_time <= 0.0 {
-        let problem = format!("is {}", wish.convergence_time);
-        faults.push("control.design.convergence_time", problem, "write a number above 0, in s");
-    }
-    if let Some(period) = wish.period.filter(|period| *period <= 0.0) {
-        faults.push("control.design.period", format!("is {period}"), "write a number above 0, in s");
+    let mut within = |field: &str, value: f64, [least, most]: [f64; 2]| {
+        if !(least..=most).contains(&value) {
+            let mend = format!("write a number from {least:e} to {most:e}, in s");
+            faults.push(format!("control.design.{field}"), format!("is {value:e}"), mend);
+        }
+    };
+    within("convergence_time", wish.convergence_time, TIMES);
+    if let Some(period) = wish.period {
+        within("period", period, PERIODS);
     }
     if spec.measure == Some(MeasureSpec::Trajectory) {
         let mend = "take the measure `tube`, or `workspace`";
         faults.push("control.design", "finds no room for errors in the measure `trajectory`", mend);
     }
     let Some(tube) = &wish.tube else { return };
-    entries("control.design.tube", tube, joints, |v| v > 0.0, "a number above 0", faults);
+    entries("control.design.tube", tube, joints, |v| v >= LEAST, "a number of at least 1e-6", faults);
     let widest = match &spec.measure {
         Some(MeasureSpec::Tube { position_error }) => position_error,
         None if spec.motion.is_some() => &VectorSpec::Scalar(crate::pipeline::DEFAULT_TUBE),

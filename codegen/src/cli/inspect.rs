@@ -340,7 +340,7 @@ fn text(view: &Inspection, generation: &Generation) -> String {
     }
     if let Some(adaptation) = &view.adaptation {
         let count = adaptation.parameters.len();
-        lines.push(format!("adapts {count} parameters: base and Y in {}", cost(&adaptation.operations)));
+        lines.push(format!("parameters adapted: {count}; base and Y in {}", cost(&adaptation.operations)));
     }
     if let Some(control) = &view.control {
         lines.push(gains(control));
@@ -401,7 +401,11 @@ fn down(x: f64) -> String {
 fn guarantee(promised: &GuaranteeView) -> Vec<String> {
     let kind = if promised.inertia_certified { "certified" } else { "sampled" };
     let mut lines = vec![
-        format!("final error: ({})", list(promised.final_error)),
+        format!(
+            "final error: ({}){}",
+            list(promised.final_error),
+            if promised.guaranteed { "" } else { ", which means nothing without the guarantee" }
+        ),
         format!(
             "largest initial error: ({})",
             promised.initial_error_max.iter().map(|&e| down(e)).collect::<Vec<_>>().join(", ")

@@ -7,6 +7,7 @@ use super::reach::{Course, Envelope, InertiaBounds, fastest, inertia_bounds, ini
 use super::region::{cells, outside, reach, start, width};
 use super::{Problem, family};
 use crate::error::Error;
+use crate::spec::LawSpec;
 
 /// Halvings of the interval in which the largest initial error lies.
 const HALVINGS: u32 = 30;
@@ -94,9 +95,10 @@ impl Parts<'_> {
         let envelope = match level_found {
             Some(envelope) => envelope,
             None => {
-                reasons.push(
-                    "no level of V is found that the law keeps it below: raise W or Omega, or narrow the boundary layer".to_string(),
-                );
+                reasons.push(format!(
+                    "no level of V is found that the law keeps it below: {}",
+                    more(control.law)
+                ));
                 let (position_error, velocity_error) = course.errors(v_max, position)?;
                 let speed = course.speed.iter().zip(&velocity_error).map(|(d, e)| d + e).collect();
                 Envelope { v_max, level: v_max, position_error, velocity_error, speed }
@@ -116,7 +118,7 @@ impl Parts<'_> {
         };
 
         if !facts.certified {
-            reasons.push("the bounds on D over the domain could not be certified".to_string());
+            reasons.push("the bounds on D over the domain could not be certified: narrow the tube or the intervals of uncertainty".to_string());
         }
         if self.tuning.period >= period_max {
             reasons.push(format!(
@@ -249,6 +251,19 @@ impl Parts<'_> {
             tube = next.iter().zip(&tube).map(|(a, b)| 1.02 * a.max(*b)).collect();
         }
         Ok(None)
+    }
+}
+
+/// What helps a law that holds no level of V.
+fn more(law: LawSpec) -> &'static str {
+    match law {
+        LawSpec::Exact => {
+            "raise W or Omega, or take law `report` or `tight`, which outweigh what the model leaves out"
+        }
+        LawSpec::Report | LawSpec::Tight => "raise W or Omega, or narrow the boundary layer",
+        LawSpec::Adaptive => {
+            "raise W or Omega, narrow the boundary layer or the intervals of uncertainty, or lower Ptheta"
+        }
     }
 }
 

@@ -246,7 +246,10 @@ impl Design {
                     "is {} s, and the sampled loop is stable only below {:.4e} s",
                     self.period, promised.period_max
                 ),
-                "shorten it, lower W, widen the boundary layer, or set `control.allow_long_period` and lose the guarantee",
+                format!(
+                    "shorten it, lower W, {}widen the boundary layer, or set `control.allow_long_period` and lose the guarantee",
+                    if self.adaptation.is_some() { "raise `control.adaptation.Ptheta`, " } else { "" }
+                ),
             );
         } else if control.require_guarantee && !promised.holds {
             let list = |x: &[f64]| x.iter().map(|e| format!("{e:.4}")).collect::<Vec<_>>().join(", ");
