@@ -54,7 +54,7 @@ const CASES: &[Case] = &[
         "ends the wrong way round",
         |i| link(i, json!({ "joint": "joint3", "mass": [4.2, 2.8] })),
         "control.uncertainty.links[0].mass",
-        &["is [4.2, 2.8]", "write [lowest, highest]"],
+        &["is [4.2, 2.8]", "the lowest first"],
     ),
     case(
         "negative mass",
