@@ -221,7 +221,6 @@ fn a_spent_budget_still_leaves_a_certificate() {
     check(&hasty, &Demand { states: 2_000, median: any, worst: any, rest: any, ..LIGHT });
 }
 
-/// The default boxes leave one bound of it 20 % above what is found; three times as many leave none.
 #[test]
 #[ignore = "minutes; see the command above"]
 fn full_workspace() {

@@ -24,7 +24,8 @@ pub struct Guarantee {
     /// Why not; empty where it holds.
     pub reasons: Vec<String>,
     /// Longest period with T (λ_max(D⁻¹K) + λ_max(P12)) < 2 over the domain, s; K is the whole gain on s, with ΔC1, the
-    /// slope ρ/φ inside the layer and what is learnt within a period. The sign function has no slope to count: its chatter counts in `final_error`.
+    /// slope ρ/φ inside the layer and what is learnt within a period. The sign function has no slope to count: its
+    /// chatter counts in `final_error`.
     pub period_max: f64,
     /// What |q_e| ends below, by joint, rad or m.
     pub final_error: Vec<f64>,

@@ -2,9 +2,9 @@
 //!
 //! The level of V at which (17) ends charges the stiffness Pqq for everything that the layer lets pass. The kinetic part
 //! V_s = ½ sᵀDs alone has V̇_s ≤ −Σ f_i(|s_i|) + c with f_i(x) = K_i x² − b_i x − ρ_i x (1 − x/φ_i)₊: b_i is the torque
-//! that nothing outweighs (of a law that learns all that wrong parameters in their box do) and what Pqq pulls at the errors
-//! there are, c the chatter of a held sign. So V_s ends below its
-//! largest value where Σ f_i ≤ c, each |q_e,i| below |s_i|/P12_ii, and with smaller errors all of that shrinks again.
+//! that nothing outweighs (of a law that learns all that wrong parameters in their box do) and what Pqq pulls at the
+//! errors there are, c the chatter of a held sign. So V_s ends below its largest value where Σ f_i ≤ c, each |q_e,i|
+//! below |s_i|/P12_ii, and with smaller errors all of that shrinks again.
 
 use nalgebra::DMatrix;
 
