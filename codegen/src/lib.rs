@@ -10,7 +10,8 @@
 //! 4. [`lagrangian`] expands D, h and G of equation (1) over cos(κ·q) and sin(κ·q), sampled by [`dynamics`]:
 //!    [`lagrangian::Lagrangian`].
 //! 5. [`motion`] and [`measure`] say where the model must be good, as weighted points: [`measure::Measure`].
-//! 6. [`reduction`] keeps ξ functions by weighted Gram–Schmidt (2)–(8): [`reduction::Reduced`].
+//! 6. [`reduction`] keeps ξ functions by weighted Gram–Schmidt (2)–(8), or [`mod@tolerance`] as few as a certified
+//!    torque error allows: [`reduction::Reduced`].
 //! 7. [`bounds`] says how much was left out: [`bounds::Bounds`].
 //! 8. [`mod@design`] makes the numbers of the tracking law (16) or (34) from gains and bounds: [`design::Design`].
 //! 9. [`body`] writes the passivity torque D̂ a_r + Ĉ v_r + Ĝ as an expression [`graph`]: [`graph::Graph`].
@@ -49,6 +50,7 @@ pub mod simulate;
 pub mod sines;
 pub mod spec;
 pub mod spread;
+pub mod tolerance;
 
 pub use config::{Config, Output};
 pub use error::Error;

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use crate::arm::{Arm, Built, JointKind, Uncertainty, indefinite, indefinite_among};
 use crate::body::{self, Form, Regressor};
-use crate::bounds::{Bounds, Certificate, Effort, certified, reach, recursion, with_sines};
+use crate::bounds::{
+    Bounds, Certificate, Effort, Torque, certified, reach, recursion, torque_error, with_sines,
+};
 use crate::check::{examine, vector};
 use crate::design::{Design, Problem, checked, design};
 use crate::dynamics::mass_matrix;
@@ -15,12 +17,17 @@ use crate::lagrangian::{Lagrangian, expand_family};
 use crate::load::{Loaded, load, spec_hash};
 use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
-use crate::reduction::{self, Reduced, Regression};
+use crate::reduction::{self, Dictionary, Reduced, Regression};
 use crate::sines::Sines;
-use crate::spec::{LawSpec, MeasureSpec, ModelSpec, RefitSpec, Spec};
+use crate::spec::{DictionarySpec, LawSpec, MeasureSpec, ModelSpec, RefitSpec, Spec};
+use crate::tolerance::{Scale, cheapest};
 
 /// Half-width of the tube where the specification names no measure, rad or m.
 pub(crate) const DEFAULT_TUBE: f64 = 0.05;
+
+/// Where the torque error is what counts, no single coefficient is worth more boxes and more starts of a search.
+const BOXES: usize = 2000;
+const STARTS: usize = 4;
 
 /// Positions of the domain at which D is looked at.
 const POSITIONS: usize = 512;
@@ -52,6 +59,8 @@ pub struct Generation {
     pub certificates: Vec<Certificate>,
     /// What the model leaves out over the domain at most.
     pub bounds: Bounds,
+    /// What that costs in torque; `None` over a workspace where a joint lacks a limit.
+    pub torque: Option<Torque>,
     /// The controller.
     pub design: Option<Design>,
     /// Form of the emitted body.
@@ -128,19 +137,26 @@ impl Generation {
                 return refused(&|faults| state.report_member(&uncertainty, &u, faults));
             }
         }
-        let reduced = match spec.model {
-            ModelSpec::Exact => reduction::exact(&lagrangian),
-            ModelSpec::Shared { functions } => reduction::shared(&lagrangian, &measure, functions),
-        };
         let learns = spec.control.as_ref().filter(|control| control.law == LawSpec::Adaptive);
         let points = match spec.refit {
             RefitSpec::Minimax => reduction::extremes(&measure, &domain, motion.as_ref()),
             RefitSpec::LeastSquares => measure.points.clone(),
         };
-        let reduced = match spec.refit {
-            RefitSpec::Minimax => reduction::minimax(&lagrangian, reduced, &points),
-            RefitSpec::LeastSquares => reduced,
+        let scale = Scale::new(&arm, &domain, motion.as_ref());
+        let exact = body::exact(&arm, &lagrangian);
+        let Model { reduced, form, mut code } = {
+            let ask = Ask {
+                spec,
+                arm: &arm,
+                lagrangian: &lagrangian,
+                domain: &domain,
+                motion: motion.as_ref(),
+                measure: &measure,
+                points: &points,
+            };
+            ask.model(scale.as_ref(), &exact)
         };
+        let exact_code = exact.1;
         let regression = learns.map(|control| {
             let kind = control.adaptation.clone().unwrap_or_default().parameters;
             let reduced = reduction::reestimate(&lagrangian, reduced.clone(), &points, spec.refit);
@@ -151,22 +167,41 @@ impl Generation {
             Some((regression, reestimated)) => (Some(regression), reestimated),
             None => (None, reduced),
         };
-        let (exact_form, exact_code) = body::exact(&arm, &lagrangian);
-        let (form, mut code) = match spec.model {
-            ModelSpec::Exact => (exact_form, exact_code.clone()),
-            ModelSpec::Shared { .. } => (Form::Expanded, body::expanded(&arm, &lagrangian, &reduced)),
+        let effort_here = match spec.model.tolerance() {
+            Some(_) => {
+                Effort { boxes: effort.boxes.min(BOXES), starts: effort.starts.min(STARTS), ..*effort }
+            }
+            None => *effort,
         };
         let (certificates, mut bounds) = if form == Form::Recursive && !sines.rounds() {
             // What coarse sines do is known of the plain recursion alone.
             code = body::plain(&arm);
-            recursive_bounds(&arm, &lagrangian, &reduced, &domain, motion.as_ref(), effort, &sines)
+            recursive_bounds(&arm, &lagrangian, &reduced, &domain, motion.as_ref(), &effort_here, &sines)
         } else {
-            let certificates = certified(&lagrangian, &reduced, &domain, motion.as_ref(), effort);
+            let certificates = certified(&lagrangian, &reduced, &domain, motion.as_ref(), &effort_here);
             let certificates =
                 with_sines(certificates, &lagrangian, &reduced, &domain, motion.as_ref(), &sines);
             let bounds = Bounds::of(&lagrangian, &certificates);
             (certificates, bounds)
         };
+        let torque = scale.map(|Scale { rates, peak }| {
+            if form == Form::Recursive {
+                return Torque { error: bounds.torque(&rates), peak };
+            }
+            let mut error =
+                torque_error(&lagrangian, &reduced, &domain, motion.as_ref(), &certificates, &rates);
+            if let (Some(fraction), true) = (spec.model.tolerance(), uncertainty.parameters.is_empty()) {
+                // The choice has proved as much, perhaps with more work, for sines within an ulp.
+                for (i, (error, peak)) in error.iter_mut().zip(&peak).enumerate() {
+                    let multipliers = rates.multipliers(&lagrangian, i);
+                    let sines: f64 = certificates.iter().zip(&multipliers).map(|(c, u)| c.sines * u).sum();
+                    let proved = fraction * peak;
+                    let proved = if sines == 0.0 { proved } else { (proved + sines).next_up() };
+                    *error = error.min(proved);
+                }
+            }
+            Torque { error, peak }
+        });
         if !uncertainty.viscous.is_empty() {
             bounds.b.clone_from(&uncertainty.viscous);
         }
@@ -214,6 +249,7 @@ impl Generation {
             reduced,
             certificates,
             bounds,
+            torque,
             design,
             uncertainty,
             regression,
@@ -238,6 +274,7 @@ impl Generation {
             lagrangian: &self.lagrangian,
             reduced: &self.reduced,
             bounds: &self.bounds,
+            torque: self.torque.as_ref(),
             domain: &self.domain,
             form: self.form,
             code: &self.code,
@@ -246,6 +283,73 @@ impl Generation {
             motion: self.motion.as_ref(),
             design: self.design.as_ref(),
         })
+    }
+}
+
+/// A model with its code.
+struct Model {
+    reduced: Reduced,
+    form: Form,
+    code: Graph,
+}
+
+/// What a model is chosen by.
+struct Ask<'a> {
+    spec: &'a Spec,
+    arm: &'a Arm,
+    lagrangian: &'a Lagrangian,
+    domain: &'a Domain,
+    motion: Option<&'a Motion>,
+    measure: &'a Measure,
+    points: &'a [Vec<f64>],
+}
+
+impl Ask<'_> {
+    /// The model that the specification asks for; `exact` is the form and the code of the exact one.
+    fn model(&self, scale: Option<&Scale>, exact: &(Form, Graph)) -> Model {
+        let Self { spec, arm, lagrangian, measure, points, .. } = *self;
+        let minimax = spec.refit == RefitSpec::Minimax;
+        let reduced = match spec.model {
+            ModelSpec::Exact => {
+                let (form, code) = exact.clone();
+                return Model { reduced: reduction::exact(lagrangian), form, code };
+            }
+            ModelSpec::Auto | ModelSpec::Tolerance { .. } => {
+                return self.cheapest(scale, exact);
+            }
+            ModelSpec::Shared { functions } | ModelSpec::Separate { functions }
+                if spec.dictionary != DictionarySpec::Harmonic =>
+            {
+                let separate = matches!(spec.model, ModelSpec::Separate { .. });
+                let candidates = dictionary(spec).functions(lagrangian);
+                let mut model =
+                    reduction::over_dictionary(lagrangian, measure, candidates, functions, separate);
+                if minimax {
+                    model = reduction::minimax_sparse(lagrangian, model, functions, points);
+                }
+                let code = body::sparse(lagrangian, &model);
+                return Model { reduced: model.reduced(lagrangian), form: Form::Sparse, code };
+            }
+            ModelSpec::Shared { functions } => {
+                let reduced = reduction::shared(lagrangian, measure, functions);
+                if minimax { reduction::minimax(lagrangian, reduced, points) } else { reduced }
+            }
+            ModelSpec::Separate { functions } => {
+                let reduced = reduction::separate(lagrangian, measure, functions);
+                if minimax { reduction::minimax_each(lagrangian, reduced, points) } else { reduced }
+            }
+        };
+        let code = body::expanded(arm, lagrangian, &reduced);
+        Model { reduced, form: Form::Expanded, code }
+    }
+
+    /// The cheapest model within the tolerance, which is about the arm's own parameters.
+    fn cheapest(&self, scale: Option<&Scale>, exact: &(Form, Graph)) -> Model {
+        let fraction = self.spec.model.tolerance().unwrap_or_default();
+        let known = self.lagrangian.at_nominal();
+        let (form, code) = exact;
+        let choice = cheapest(&known, self.domain, self.motion, self.measure, scale, fraction, (*form, code));
+        Model { reduced: choice.reduced, form: choice.form, code: choice.code }
     }
 }
 
@@ -275,14 +379,24 @@ fn recursive_bounds(
 }
 
 fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Faults) {
-    let p = lagrangian.functions.len();
-    match spec.model {
-        ModelSpec::Shared { functions } if functions > p => faults.push(
-            "model.shared.functions",
-            format!("is {functions}, but the exact model has {p} functions"),
-            format!("write a number from 1 to {p}, or `\"exact\"`"),
-        ),
-        ModelSpec::Shared { .. } | ModelSpec::Exact => {}
+    let p = dictionary(spec).functions(lagrangian).len();
+    let (field, functions) = match spec.model {
+        ModelSpec::Shared { functions } => ("model.shared.functions", functions),
+        ModelSpec::Separate { functions } => ("model.separate.functions", functions),
+        ModelSpec::Exact | ModelSpec::Tolerance { .. } | ModelSpec::Auto => return,
+    };
+    if functions > p {
+        let problem = format!("is {functions}, but the exact model has {p} functions");
+        faults.push(field, problem, format!("write a number from 1 to {p}, or `\"exact\"`"));
+    }
+}
+
+/// The functions among which the reduction chooses.
+pub(crate) fn dictionary(spec: &Spec) -> Dictionary {
+    match spec.dictionary {
+        DictionarySpec::Harmonic => Dictionary::Harmonic,
+        DictionarySpec::Product => Dictionary::Product,
+        DictionarySpec::Union => Dictionary::Union,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The specification file: one arm, one motion, one model, one controller, as JSON.
 //!
-//! Types only; [`crate::load`] reads and checks a file, the stages give the fields their meaning.
+//! Types and defaults only; [`crate::load`] reads and checks a file, the stages give the fields their meaning.
 //! Units are SI throughout: m, kg, s, rad, N·m (N and m for prismatic joints).
 
 mod control;
@@ -31,12 +31,13 @@ pub struct Spec {
     /// Where the reduction is judged. Default: a tube of 0.05 rad (or m) around the motion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measure: Option<MeasureSpec>,
-    /// Form of the model that is generated.
+    /// Form of the model that is generated. Default: `auto`.
+    #[serde(default)]
     pub model: ModelSpec,
     /// How the kept parameters are fitted.
     #[serde(default)]
     pub refit: RefitSpec,
-    /// The candidate functions of the reduction.
+    /// The candidate functions of `shared` and `separate`; `tolerance` has its own.
     #[serde(default)]
     pub dictionary: DictionarySpec,
     /// The tracking law; without it the module holds the model and its bounds alone.
@@ -318,9 +319,12 @@ pub enum MeasureSpec {
 }
 
 /// Form of the generated model.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ModelSpec {
+    /// The cheapest model whose certified torque error stays below 1 % of each joint's peak torque.
+    #[default]
+    Auto,
     /// No reduction: zero bounds.
     Exact,
     /// The same ψ functions for all simplified coefficients.
@@ -328,6 +332,29 @@ pub enum ModelSpec {
         /// Number ξ of kept functions, 1 to p.
         functions: usize,
     },
+    /// Every simplified coefficient has ψ functions of its own.
+    Separate {
+        /// Number ξ of functions that a coefficient keeps, 1 to p.
+        functions: usize,
+    },
+    /// The model with the fewest operations whose certified torque error is small enough; the exact one if none is
+    /// cheaper.
+    Tolerance {
+        /// Most torque error as a fraction of each joint's peak torque, above 0 and below 1: over a workspace of the
+        /// largest torque within the joints' limits, around a motion of the largest along it.
+        torque: f64,
+    },
+}
+
+impl ModelSpec {
+    /// The torque error that is allowed, as a fraction of each joint's peak torque.
+    pub fn tolerance(&self) -> Option<f64> {
+        match *self {
+            ModelSpec::Auto => Some(0.01),
+            ModelSpec::Tolerance { torque } => Some(torque),
+            ModelSpec::Exact | ModelSpec::Shared { .. } | ModelSpec::Separate { .. } => None,
+        }
+    }
 }
 
 /// How the parameters of the kept functions are fitted.
@@ -349,6 +376,10 @@ pub enum DictionarySpec {
     /// cos(κ·q) and sin(κ·q), times powers of prismatic coordinates.
     #[default]
     Harmonic,
+    /// The report's: 1, the functions in which every joint occurs once at most, and products of two of these.
+    Product,
+    /// Both.
+    Union,
 }
 
 /// A number for every joint, or one for each.

@@ -83,11 +83,11 @@ pub(super) fn alpha<'g>(
 }
 
 /// The sign goes to the product and not to the coefficient: sums absorb it there.
-fn signed(minus: bool, product: Expr<'_>) -> Expr<'_> {
+pub(super) fn signed(minus: bool, product: Expr<'_>) -> Expr<'_> {
     if minus { -product } else { product }
 }
 
-fn velocity_product(builder: &Builder, j: usize, k: usize) -> Expr<'_> {
+pub(super) fn velocity_product(builder: &Builder, j: usize, k: usize) -> Expr<'_> {
     let product = |a, b| builder.input(Variable::Qd(a)) * builder.input(Variable::Vr(b));
     let value = if j == k { product(j, j) } else { product(j, k) + product(k, j) };
     value.named(&format!("v{}{}", j + 1, k + 1), true)

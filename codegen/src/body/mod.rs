@@ -1,10 +1,12 @@
 //! Bodies of the passivity torque D̂ a_r + Ĉ v_r + Ĝ as expression graphs.
 
 mod expanded;
+mod factors;
 mod harmonics;
 mod plain;
 mod recursive;
 mod regressor;
+mod sparse;
 #[cfg(test)]
 mod tests;
 
@@ -12,6 +14,7 @@ pub use expanded::expanded;
 pub use plain::plain;
 pub use recursive::recursive;
 pub use regressor::{Regressor, regressor};
+pub use sparse::sparse;
 
 use crate::arm::Arm;
 use crate::graph::Graph;
@@ -29,6 +32,8 @@ const SHORT: usize = 100;
 pub enum Form {
     /// Sums of ψ functions.
     Expanded,
+    /// Sums of a few functions each, products among them.
+    Sparse,
     /// The polarised Newton–Euler recursion.
     Recursive,
 }
@@ -38,6 +43,7 @@ impl Form {
     pub fn name(self) -> &'static str {
         match self {
             Form::Expanded => "expanded",
+            Form::Sparse => "sparse",
             Form::Recursive => "recursive",
         }
     }

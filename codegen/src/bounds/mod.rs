@@ -11,6 +11,7 @@ mod envelope;
 mod estimate;
 mod expansion;
 mod factor;
+mod peak;
 mod polynomial;
 mod recursion;
 mod region;
@@ -22,13 +23,15 @@ mod tensors;
 #[cfg(test)]
 mod tests;
 mod torque;
+mod weighted;
 
 pub use estimate::estimate;
 pub use factor::{factor, factor_bounds};
+pub use peak::workspace_peak_torque;
 pub use recursion::recursion;
 pub use region::reach;
 pub use sines::with_sines;
-pub use torque::{Rates, largest_torque, peak_torque, torque_error};
+pub use torque::{Rates, Torque, largest_torque, peak_torque, separate_error, torque_error, torque_exceeds};
 
 use rayon::prelude::*;
 
@@ -103,6 +106,18 @@ pub fn certified(
     motion: Option<&Motion>,
     effort: &Effort,
 ) -> Vec<Certificate> {
+    certified_beside(lagrangian, reduced, domain, motion, effort, |_| None)
+}
+
+/// As [`certified`], where some coefficients' certificates are known already.
+pub fn certified_beside(
+    lagrangian: &Lagrangian,
+    reduced: &Reduced,
+    domain: &Domain,
+    motion: Option<&Motion>,
+    effort: &Effort,
+    known: impl Fn(usize) -> Option<Certificate> + Sync,
+) -> Vec<Certificate> {
     let reach = reach(domain, motion);
     residuals(lagrangian, reduced, domain, motion)
         .into_par_iter()
@@ -110,6 +125,9 @@ pub fn certified(
         .map(|(m, residuals)| {
             if residuals.is_empty() {
                 return Certificate::default();
+            }
+            if let Some(certificate) = known(m) {
+                return certificate;
             }
             let coefficient = &lagrangian.coefficients[m];
             let terms = coefficient.terms.iter().chain(coefficient.variations.iter().flatten());

@@ -18,6 +18,9 @@
 //!   along each axis: γ_1024 Σ|k_l| sup|ψ_l|;
 //! - X, what the expansion dropped as rounding noise: [`Lagrangian::truncation`] times the largest monomial.
 //!
+//! A sparse form evaluates Σ k_f ψ_f over products ψ_f of at most three functions: it adds γ_{256+ξ} Σ|k_f| sup|ψ_f|
+//! to E.
+//!
 //! Uncertain parameters add the same three for every ∂α_m/∂u_k and ∂α̂_m/∂u_k, times the largest |u_k|.
 
 use crate::lagrangian::{Combination, Lagrangian};
@@ -41,7 +44,12 @@ pub fn published(lagrangian: &Lagrangian, m: usize, reduced: &Reduced, reach: &[
     let evaluation = |terms: &Combination| gamma(64.0 + terms.len() as f64) * sum(terms);
     let exact = |terms: &Combination| gamma(1024.0) * sum(terms);
     let coefficient = &lagrangian.coefficients[m];
-    let own = evaluation(kept) + exact(&coefficient.terms) + lagrangian.truncation * largest;
+    // Products take their parameters as they are, and these may cancel where the combination's do not.
+    let products = reduced.sparse.as_ref().map_or(0.0, |sparse| {
+        let (sum, count) = sparse.magnitude(m);
+        gamma(256.0 + count as f64) * sum * largest
+    });
+    let own = evaluation(kept) + products + exact(&coefficient.terms) + lagrangian.truncation * largest;
     let varied = lagrangian.ranges.iter().enumerate().map(|(k, [low, high])| {
         let learnt = reduced.variations.get(m).map_or(0.0, |v| evaluation(&v[k]));
         let rest = exact(&coefficient.variations[k]) + lagrangian.variation_truncation[k] * largest;

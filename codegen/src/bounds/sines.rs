@@ -6,6 +6,9 @@
 //!
 //! S_m = Σ_l |k̂_l| sup|monomial of ψ_l| ((1 + √2 ε)^|κ_l|₁ − 1).
 //!
+//! A product ψ of a sparse form is a product of such parts: it is off by its own sup times (1 + √2 ε)^Σ|κ|₁ − 1, the sum
+//! over its factors.
+//!
 //! The functions grow by the same power, and what their evaluation rounds with them: S_m (1 + γ_{64+ξ}). What a law
 //! learns adds the same for every ∂α̂_m/∂u_k, times the largest |u_k|.
 
@@ -15,7 +18,7 @@ use super::rounding::{gamma, monomial, published};
 use crate::lagrangian::{Combination, Lagrangian};
 use crate::measure::Domain;
 use crate::motion::Motion;
-use crate::reduction::Reduced;
+use crate::reduction::{Reduced, Sparse};
 use crate::sines::Sines;
 
 /// Adds to every certificate what `sines` can do to its coefficient in expanded form.
@@ -37,7 +40,11 @@ pub fn with_sines(
             let widest = lagrangian.ranges.iter().map(|[low, high]| high.max(-low));
             variations.iter().zip(widest).map(|(terms, u)| u * grown(terms)).sum()
         });
-        let added = grown(terms) + learnt;
+        let own = match &reduced.sparse {
+            Some(sparse) => products_grown(lagrangian, sparse, m, &reach, sines.beyond_ulp()),
+            None => grown(terms),
+        };
+        let added = own + learnt;
         let bounded = certificate.bound > 0.0;
         if added == 0.0 || (!bounded && sines.rounds()) {
             continue;
@@ -51,13 +58,26 @@ pub fn with_sines(
 
 /// S_m (1 + γ_{64+ξ}), its own rounding included.
 fn grown(lagrangian: &Lagrangian, terms: &Combination, reach: &[f64], sine: f64) -> f64 {
-    let step = std::f64::consts::SQRT_2 * sine;
-    let term = |&(l, k): &(usize, f64)| {
-        let turns: u32 = lagrangian.functions[l].kappa.iter().map(|k| u32::from(k.unsigned_abs())).sum();
-        // (1 + x)^n − 1 without cancellation.
-        let growth = (0..turns).fold(0.0, |e, _| e + step + e * step);
-        k.abs() * monomial(lagrangian, l, reach) * growth
-    };
+    let term = |&(l, k): &(usize, f64)| k.abs() * growth(lagrangian, &[l], reach, sine);
     let rounding = gamma(128.0 + 2.0 * terms.len() as f64);
     terms.iter().map(term).sum::<f64>() * (1.0 + rounding)
+}
+
+/// The same of a sparse form.
+fn products_grown(lagrangian: &Lagrangian, sparse: &Sparse, m: usize, reach: &[f64], sine: f64) -> f64 {
+    let Some(terms) = sparse.terms(m) else { return 0.0 };
+    let term =
+        |&(f, k): &(usize, f64)| k.abs() * growth(lagrangian, &sparse.functions[f].factors, reach, sine);
+    let rounding = gamma(512.0 + 2.0 * terms.len() as f64);
+    terms.iter().map(term).sum::<f64>() * (1.0 + rounding)
+}
+
+/// What the product of the functions `factors` can be off by.
+fn growth(lagrangian: &Lagrangian, factors: &[usize], reach: &[f64], sine: f64) -> f64 {
+    let step = std::f64::consts::SQRT_2 * sine;
+    let kappa = factors.iter().flat_map(|&l| lagrangian.functions[l].kappa);
+    let turns: u32 = kappa.map(|k| u32::from(k.unsigned_abs())).sum();
+    // (1 + x)^n − 1 without cancellation.
+    let growth = (0..turns).fold(0.0, |e, _| e + step + e * step);
+    factors.iter().fold(growth, |size, &l| size * monomial(lagrangian, l, reach))
 }

@@ -1,13 +1,10 @@
 //! What the left-out terms can cost in torque.
 
-use std::collections::BinaryHeap;
-
 use rayon::prelude::*;
 
-use super::branch::{Waiting, divisible, halves};
-use super::polynomial::Scratch;
-use super::region::{Cell, Region, reach};
+use super::region::{Region, reach};
 use super::residual::Residual;
+use super::weighted::{Part, Stop, Weighted};
 use super::{Certificate, residuals, rounding};
 use crate::arm::{Arm, Uncertainty};
 use crate::dynamics::inverse_dynamics;
@@ -19,7 +16,9 @@ use crate::reduction::Reduced;
 /// Terms that all boxes of one joint may visit together.
 const TERMS: usize = 20_000_000;
 /// Boxes of one joint at most.
-const BOXES: usize = 4000;
+const BOXES: usize = 10_000;
+/// The same where a limit is to be kept.
+const BOXES_WITHIN: usize = 6_000;
 /// Where bound and largest value found differ by less than this fraction, halving stops.
 const TOLERANCE: f64 = 0.02;
 /// Instants of the motion at which its torque is taken.
@@ -52,7 +51,7 @@ impl Rates {
     }
 
     /// Ū_m of row `i`: the most that multiplies α_m there, over all its places.
-    pub(crate) fn multipliers(&self, lagrangian: &Lagrangian, i: usize) -> Vec<f64> {
+    pub fn multipliers(&self, lagrangian: &Lagrangian, i: usize) -> Vec<f64> {
         let (a, v, w) = (&self.reference_acceleration, &self.speed, &self.reference_speed);
         let of = |entry: Entry| match entry {
             Entry::D(r, c) if r == i => a[c],
@@ -67,6 +66,24 @@ impl Rates {
     }
 }
 
+/// Torque errors and what they are compared with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Torque {
+    /// Certified bound on the torque error by joint, N·m or N, for rates up to the motion's own, over a workspace up to
+    /// the joints' limits.
+    pub error: Vec<f64>,
+    /// Largest torque of the exact model by joint, N·m or N: along the motion, over a workspace the largest found.
+    pub peak: Vec<f64>,
+}
+
+impl Torque {
+    /// The largest error as a fraction of its joint's peak torque.
+    pub fn fraction(&self) -> f64 {
+        let part = |(error, peak): (&f64, &f64)| if *error == 0.0 { 0.0 } else { error / peak };
+        self.error.iter().zip(&self.peak).map(part).fold(0.0, f64::max)
+    }
+}
+
 /// Bound on the torque error |δD a_r + δC v_r + δG| by joint, N·m or N, over the domain and all rates up to `rates`.
 ///
 /// Σ_m |r_m(q)| Ū_m is bounded at each q rather than by the separate maxima of its terms; never more than Σ Δα_m Ū_m.
@@ -78,31 +95,97 @@ pub fn torque_error(
     certificates: &[Certificate],
     rates: &Rates,
 ) -> Vec<f64> {
-    let residuals = residuals(lagrangian, reduced, domain, motion);
-    let reach = reach(domain, motion);
-    let joints: Vec<usize> = (0..lagrangian.dof).collect();
-    let region = Region::new(domain, motion, &joints);
-    joints
-        .par_iter()
-        .map(|&i| {
-            let multipliers = rates.multipliers(lagrangian, i);
-            let separate: f64 = certificates.iter().zip(&multipliers).map(|(c, u)| c.bound * u).sum();
-            let mut extra = 0.0;
-            let mut parts = Vec::new();
-            for (m, vertices) in residuals.iter().enumerate() {
-                extra += multipliers[m] * certificates[m].sines;
-                if vertices.is_empty() || multipliers[m] <= 0.0 {
-                    continue;
-                }
-                extra += multipliers[m] * rounding::published(lagrangian, m, reduced, &reach);
-                let cap = certificates[m].bound;
-                parts.push(Part { vertices, multiplier: multipliers[m], cap });
+    let sums = Sums::new(lagrangian, reduced, domain, motion);
+    let joints = 0..lagrangian.dof;
+    joints.into_par_iter().map(|i| sums.bound(i, rates, certificates, None)).collect()
+}
+
+/// Σ_m Δα_m Ū_m by joint, N·m or N: what the torque error cannot exceed even where all residuals are largest at once.
+pub fn separate_error(lagrangian: &Lagrangian, certificates: &[Certificate], rates: &Rates) -> Vec<f64> {
+    let sum = |i: usize| {
+        let multipliers = rates.multipliers(lagrangian, i);
+        let sum: f64 = certificates.iter().zip(&multipliers).map(|(c, u)| c.bound * u).sum();
+        (sum * (1.0 + rounding::gamma(1024.0))).next_up()
+    };
+    (0..lagrangian.dof).map(sum).collect()
+}
+
+/// Whether the torque error is certified to stay within `limits` by joint, N·m or N: `None` where it is, otherwise a
+/// joint where it was found above or could not be certified within the budget.
+///
+/// What holds of some limits holds of larger ones.
+pub fn torque_exceeds(
+    lagrangian: &Lagrangian,
+    reduced: &Reduced,
+    domain: &Domain,
+    motion: Option<&Motion>,
+    certificates: &[Certificate],
+    rates: &Rates,
+    limits: &[f64],
+) -> Option<usize> {
+    let sums = Sums::new(lagrangian, reduced, domain, motion);
+    let within = |i: &usize| sums.bound(*i, rates, certificates, Some(limits[*i])) <= limits[*i];
+    (0..lagrangian.dof).into_par_iter().find_first(|i| !within(i))
+}
+
+/// What the torque errors of all joints are made of.
+struct Sums<'a> {
+    lagrangian: &'a Lagrangian,
+    reduced: &'a Reduced,
+    domain: &'a Domain,
+    motion: Option<&'a Motion>,
+    /// At the vertices of the uncertain parameters' box.
+    residuals: Vec<Vec<Residual>>,
+    reach: Vec<f64>,
+}
+
+impl<'a> Sums<'a> {
+    fn new(
+        lagrangian: &'a Lagrangian,
+        reduced: &'a Reduced,
+        domain: &'a Domain,
+        motion: Option<&'a Motion>,
+    ) -> Self {
+        let residuals = residuals(lagrangian, reduced, domain, motion);
+        Self { lagrangian, reduced, domain, motion, residuals, reach: reach(domain, motion) }
+    }
+
+    /// The bound for joint `i`.
+    fn bound(&self, i: usize, rates: &Rates, certificates: &[Certificate], limit: Option<f64>) -> f64 {
+        let multipliers = rates.multipliers(self.lagrangian, i);
+        let mut extra = 0.0;
+        let mut parts = Vec::new();
+        let mut terms = Vec::new();
+        let mut count = 0;
+        for (m, vertices) in self.residuals.iter().enumerate() {
+            extra += multipliers[m] * certificates[m].sines;
+            if vertices.is_empty() || multipliers[m] <= 0.0 {
+                continue;
             }
-            let sum = largest_sum(&parts, &region) + extra;
-            (sum.min(separate) * (1.0 + rounding::gamma(1024.0))).next_up()
-        })
-        .map(|bound| if bound < f64::MIN_POSITIVE { 0.0 } else { bound })
-        .collect()
+            extra += multipliers[m] * rounding::published(self.lagrangian, m, self.reduced, &self.reach);
+            let cap = certificates[m].bound;
+            parts.push(Part { vertices, multiplier: multipliers[m], cap });
+            // Several vertices are enclosed by themselves.
+            let left =
+                if vertices.len() == 1 { self.reduced.residual(self.lagrangian, m) } else { Vec::new() };
+            count += vertices.iter().map(|residual| residual.polynomial.terms().count()).sum::<usize>();
+            terms.push(left.iter().map(|&(l, k)| (&self.lagrangian.functions[l], k)).collect::<Vec<_>>());
+        }
+        let separate: f64 = certificates.iter().zip(&multipliers).map(|(c, u)| c.bound * u).sum();
+        if parts.is_empty() && separate == 0.0 {
+            return 0.0;
+        }
+        let slack = 1.0 + rounding::gamma(1024.0);
+        let most = if limit.is_some() { BOXES_WITHIN } else { BOXES };
+        let limit = limit.map(|limit| (limit / slack - extra) * (1.0 - f64::EPSILON));
+        let cells = (TERMS / count.max(1)).clamp(16, most);
+        let joints: Vec<usize> = (0..self.lagrangian.dof).collect();
+        let region = Region::new(self.domain, self.motion, &joints);
+        let sum = Weighted::new(parts, &terms, self.domain, self.motion, &self.reach);
+        let range = sum.range(&region, &Stop { tolerance: TOLERANCE, cells, limit });
+        let bound = ((range.upper + extra).min(separate) * slack).next_up();
+        if bound < f64::MIN_POSITIVE { 0.0 } else { bound }
+    }
 }
 
 /// Largest |τ| by joint along the motion, N·m or N, without friction.
@@ -122,82 +205,4 @@ pub fn largest_torque(arm: &Arm, uncertainty: &Uncertainty, motion: &Motion) -> 
         peak.iter_mut().zip(largest).for_each(|(peak, tau)| *peak = peak.max(tau));
     }
     peak
-}
-
-struct Part<'a> {
-    /// The residual at the vertices of the box of uncertain parameters; |r_m| is the largest of them.
-    vertices: &'a [Residual],
-    multiplier: f64,
-    cap: f64,
-}
-
-/// An upper bound on max Σ_m |r_m| Ū_m, by best-first branch and bound.
-fn largest_sum(parts: &[Part], region: &Region) -> f64 {
-    let residuals = parts.iter().flat_map(|part| part.vertices);
-    let terms: usize = residuals.map(|residual| residual.polynomial.terms().count()).sum();
-    let budget = (TERMS / terms.max(1)).clamp(16, BOXES);
-    let mut scratch = Scratch::default();
-    let mut enter = |cell: Cell, number: usize, parent: f64| {
-        let (centre, upper, split) = enclose(parts, region, &cell, &mut scratch);
-        (
-            centre,
-            Waiting {
-                upper: upper.min(parent),
-                number,
-                residual: 0,
-                sign: 1.0,
-                split,
-                cell,
-                expansion: None,
-            },
-        )
-    };
-    let mut heap = BinaryHeap::new();
-    let (mut found, root) = enter(region.root, 0, f64::INFINITY);
-    heap.push(root);
-    let mut count = 1;
-    while let Some(top) = heap.pop() {
-        let near = top.upper <= found * (1.0 + TOLERANCE);
-        if near || count >= budget || !divisible(&top.cell, top.split) {
-            return top.upper;
-        }
-        for cell in halves(&top.cell, top.split) {
-            count += 1;
-            let (centre, waiting) = enter(cell, count, top.upper);
-            found = found.max(centre);
-            heap.push(waiting);
-        }
-    }
-    0.0
-}
-
-/// Σ|r_m|Ū_m at the centre, its upper bound over the cell, and the variable to halve: the votes of the parts are
-/// weighed by what each adds above its centre.
-fn enclose(parts: &[Part], region: &Region, cell: &Cell, scratch: &mut Scratch) -> (f64, f64, usize) {
-    let whole = region.frame(cell);
-    let time = region.joints.len();
-    let mut votes = [0.0; super::region::MAX_VARIABLES];
-    let (mut centre, mut upper) = (0.0, 0.0);
-    for part in parts {
-        let (mut here, mut most, mut vote) = (0.0_f64, f64::MIN, time);
-        for residual in part.vertices {
-            let joints = &residual.polynomial.joints;
-            let frame = whole.only(joints);
-            let jet = residual.jet(&frame, scratch);
-            let [rising, falling] = [1.0, -1.0].map(|sign| residual.enclose(&frame, &jet, sign));
-            let worse = if rising.upper >= falling.upper { rising } else { falling };
-            here = here.max(jet.value.abs());
-            if worse.upper > most {
-                (most, vote) = (worse.upper, joints.get(worse.split).copied().unwrap_or(time));
-            }
-        }
-        centre += here * part.multiplier;
-        upper += most.min(part.cap) * part.multiplier;
-        votes[vote] += (most - here) * part.multiplier;
-    }
-    let splittable = |i: usize| cell.high[i] > cell.low[i];
-    let split = (0..region.variables()).fold(0, |best, i| {
-        if splittable(i) && (votes[i] > votes[best] || !splittable(best)) { i } else { best }
-    });
-    (centre, upper, split)
 }

@@ -13,7 +13,7 @@ use crate::error::{Error, Faults};
 use crate::load::{Loaded, load};
 use crate::motion::Motion;
 use crate::sines::{COARSEST, FINEST};
-use crate::spec::{ModelSpec, Spec, TrigSpec};
+use crate::spec::{DictionarySpec, LawSpec, ModelSpec, Spec, TrigSpec};
 
 pub(crate) use shape::has;
 pub use shape::{matrix, vector};
@@ -71,7 +71,18 @@ fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> 
         ModelSpec::Shared { functions: 0 } => {
             faults.push("model.shared.functions", "is 0", "write a whole number of at least 1");
         }
-        ModelSpec::Shared { .. } | ModelSpec::Exact => {}
+        ModelSpec::Separate { functions: 0 } => {
+            faults.push("model.separate.functions", "is 0", "write a whole number of at least 1");
+        }
+        ModelSpec::Tolerance { torque } if !(*torque > 0.0 && *torque < 1.0) => {
+            let mend = "write a fraction of the peak torque above 0 and below 1, such as 0.01";
+            faults.push("model.tolerance.torque", format!("is {torque}"), mend);
+        }
+        ModelSpec::Shared { .. }
+        | ModelSpec::Separate { .. }
+        | ModelSpec::Tolerance { .. }
+        | ModelSpec::Auto
+        | ModelSpec::Exact => {}
     }
     let motion = spec.motion.as_ref().and_then(|motion| motion::check(motion, arm, joints, faults));
     measure::check(spec, arm, joints, faults);
@@ -86,6 +97,7 @@ fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> 
             format!("write a number from {FINEST:e} to {COARSEST}, or \"polynomial\" in place of the table");
         faults.push("emit.trig.table.error", format!("is {error}"), mend);
     }
+    few_functions(spec, faults);
     if let Some(duration) = spec.simulation.duration.filter(|v| *v <= 0.0) {
         faults.push("simulation.duration", format!("is {duration}"), "write a number above 0, in s");
     }
@@ -93,6 +105,28 @@ fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> 
         faults.push("simulation.substeps", "is 0", "write a whole number of at least 1");
     }
     motion
+}
+
+/// What goes with certain models alone.
+fn few_functions(spec: &Spec, faults: &mut Faults) {
+    let chosen = spec.model.tolerance().is_some();
+    let products = spec.dictionary != DictionarySpec::Harmonic && !chosen && spec.model != ModelSpec::Exact;
+    if matches!(spec.emit.trig, TrigSpec::Table { .. }) && (chosen || products) {
+        faults.push(
+            "emit.trig",
+            "takes a table, which goes with `shared`, `separate` and `exact` models of the harmonic dictionary alone",
+            "write \"polynomial\" or \"libm\", or name such a `model`",
+        );
+    }
+    let adaptive = spec.control.as_ref().is_some_and(|control| control.law == LawSpec::Adaptive);
+    let apart = matches!(spec.model, ModelSpec::Separate { .. });
+    if adaptive && (chosen || products || apart) {
+        faults.push(
+            "control.law",
+            "is `adaptive`, which goes with `shared` and `exact` models of the harmonic dictionary alone",
+            "write `model` as {\"shared\": {\"functions\": N}} or \"exact\", or take law `report` or `tight`",
+        );
+    }
 }
 
 /// Words that cannot name a Rust module.

@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 
+use super::inspect::exact_in_words;
 use super::{json, show_warnings};
 use crate::config::{Config, Output};
-use crate::emit::verdict;
+use crate::emit::{torque_in_words, verdict};
 use crate::error::Error;
 use crate::graph::Operations;
 
@@ -36,6 +37,11 @@ struct Written<'a> {
     bytes: usize,
     operations: Operations,
     exact_operations: Operations,
+    verdict: String,
+    /// Certified bound on the torque error by joint, N·m or N.
+    torque_error: Option<&'a [f64]>,
+    /// Largest torque by joint, N·m or N.
+    peak_torque: Option<&'a [f64]>,
     warnings: &'a [String],
 }
 
@@ -60,24 +66,38 @@ impl Generate {
             (false, true) => "written",
             (false, false) => "unchanged",
         };
-        let verdict = if output.generation.reduced.selected.is_empty() {
-            "exact model".to_string()
-        } else {
-            verdict(&view.operations, &view.exact_operations)
+        let Operations { mul, add, trig_pairs } = view.operations;
+        let error = match &output.generation.torque {
+            Some(torque) if !output.generation.reduced.selected.is_empty() => {
+                format!(" {}", torque_in_words(torque))
+            }
+            _ => String::new(),
         };
-        let cost = format!("{} mul, {} add", view.operations.mul, view.operations.add);
-        format!("{}: {state}, {} bytes, {cost}; {verdict}\n", view.path, view.bytes)
+        format!(
+            "{}: {state}, {} bytes, {mul} mul, {add} add, {trig_pairs} sin-cos pairs; {}{error}\n",
+            view.path, view.bytes, view.verdict
+        )
     }
 }
 
 fn written(output: &Output) -> Written<'_> {
+    let generation = &output.generation;
+    let (operations, exact) = (generation.code.operations(), generation.exact_code.operations());
+    let torque = generation.torque.as_ref();
     Written {
+        verdict: if generation.reduced.selected.is_empty() {
+            exact_in_words(&generation.loaded.spec.model).to_string()
+        } else {
+            verdict(&operations, &exact)
+        },
+        torque_error: torque.map(|torque| torque.error.as_slice()),
+        peak_torque: torque.map(|torque| torque.peak.as_slice()),
         path: output.path.display().to_string(),
         written: output.written,
         form: output.generation.form.name(),
         bytes: output.text.len(),
-        operations: output.generation.code.operations(),
-        exact_operations: output.generation.exact_code.operations(),
+        operations,
+        exact_operations: exact,
         warnings: &output.generation.warnings,
     }
 }

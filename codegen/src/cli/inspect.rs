@@ -6,16 +6,15 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{json, show_warnings};
-use crate::body::Form;
-use crate::bounds::{Bounds, Effort, Rates, estimate, factor_bounds, peak_torque, torque_error};
+use crate::bounds::{Bounds, Effort, estimate, factor_bounds};
 use crate::design::Envelope;
-use crate::emit::{domain_in_words, verdict};
+use crate::emit::{domain_in_words, functions, torque_in_words, verdict};
 use crate::error::Error;
 use crate::graph::Operations;
 use crate::load::load;
 use crate::measure::Domain;
-use crate::pipeline::Generation;
-use crate::spec::MatrixSpec;
+use crate::pipeline::{Generation, dictionary};
+use crate::spec::{MatrixSpec, ModelSpec};
 
 /// Shows the expansion, the chosen functions, bounds, gains and operation counts of a specification.
 #[derive(Debug, Args)]
@@ -33,6 +32,8 @@ struct Inspection<'a> {
     joints: usize,
     joint_names: Vec<&'a str>,
     functions: usize,
+    /// Functions among which the reduction chooses.
+    candidates: usize,
     coefficients: usize,
     terms: usize,
     selected: Vec<String>,
@@ -40,7 +41,7 @@ struct Inspection<'a> {
     /// Certified bound on the torque error by joint, N·m or N, for rates up to the motion's own, over a workspace
     /// up to the joints' limits.
     torque_error: Option<Vec<f64>>,
-    /// Largest torque along the motion by joint, N·m or N.
+    /// Largest torque by joint, N·m or N: along the motion, over a workspace the largest found within the joints' limits.
     peak_torque: Option<Vec<f64>>,
     domain: DomainView,
     form: &'static str,
@@ -208,9 +209,10 @@ fn view(generation: &Generation) -> Inspection<'_> {
         joints: arm.dof(),
         joint_names: arm.joints.iter().map(|joint| joint.name.as_str()).collect(),
         functions: lagrangian.functions.len(),
+        candidates: dictionary(&generation.loaded.spec).functions(lagrangian).len(),
         coefficients: lagrangian.coefficients.len(),
         terms: lagrangian.terms(),
-        selected: reduced.selected.iter().map(|&l| lagrangian.functions[l].to_string()).collect(),
+        selected: functions(lagrangian, reduced),
         bounds: BoundsView {
             kind: "certified",
             D: &bounds.d,
@@ -222,12 +224,12 @@ fn view(generation: &Generation) -> Inspection<'_> {
             estimate: estimated(generation),
             factor: by_factor(generation),
         },
-        torque_error: torque(generation),
-        peak_torque: generation.motion.as_ref().map(|motion| peak_torque(arm, motion)),
+        torque_error: generation.torque.as_ref().map(|torque| torque.error.clone()),
+        peak_torque: generation.torque.as_ref().map(|torque| torque.peak.clone()),
         domain: domain_view(&generation.domain),
         form: generation.form.name(),
         verdict: if reduced.selected.is_empty() {
-            "this is the exact model.".to_string()
+            exact_in_words(&generation.loaded.spec.model).to_string()
         } else if !reduced.simplified.contains(&true) {
             "no coefficient has more functions than are kept, so nothing was simplified.".to_string()
         } else {
@@ -237,6 +239,16 @@ fn view(generation: &Generation) -> Inspection<'_> {
         control,
         guarantee,
         warnings: &generation.warnings,
+    }
+}
+
+/// The verdict on an exact model.
+pub(super) fn exact_in_words(model: &ModelSpec) -> &'static str {
+    match model.tolerance() {
+        Some(_) => {
+            "no reduced model within the tolerance is cheaper than the exact one, so this is the exact model."
+        }
+        None => "this is the exact model.",
     }
 }
 
@@ -281,20 +293,6 @@ fn by_factor(generation: &Generation) -> Option<EstimateView> {
     Some(EstimateView { D: d, H: h, G: g })
 }
 
-/// Over a workspace the joints' limits are the rates, around a motion the motion's own.
-fn torque(generation: &Generation) -> Option<Vec<f64>> {
-    let Generation { arm, lagrangian, reduced, domain, motion, certificates, .. } = generation;
-    let motion = motion.as_ref();
-    let rates = match (domain, motion) {
-        (Domain::Workspace(_), _) | (_, None) => Rates::limits(arm)?,
-        (_, Some(motion)) => Rates::of(motion),
-    };
-    if generation.form == Form::Recursive {
-        return Some(generation.bounds.torque(&rates));
-    }
-    Some(torque_error(lagrangian, reduced, domain, motion, certificates, &rates))
-}
-
 fn domain_view(domain: &Domain) -> DomainView {
     let (kind, position_error, position) = match domain {
         Domain::Trajectory => ("trajectory", None, None),
@@ -331,9 +329,8 @@ fn text(view: &Inspection, generation: &Generation) -> String {
             up(largest(&mut view.bounds.G.iter())),
         ));
     }
-    if let Some(torque) = view.torque_error.as_ref().filter(|_| bounded) {
-        let peak = view.peak_torque.as_ref().map_or(String::new(), |peak| format!(" of {}", list(peak)));
-        lines.push(format!("torque error (certified) <= {}{peak}", list(torque)));
+    if let Some(torque) = generation.torque.as_ref().filter(|_| bounded) {
+        lines.push(torque_in_words(torque));
     }
     for p in &view.uncertainty {
         lines.push(format!("uncertain: {} in [{}, {}], here {}", p.name, p.low, p.high, p.nominal));

@@ -2,8 +2,11 @@
 
 use super::Module;
 use super::sines::up;
+use crate::bounds::Torque;
 use crate::design::Guarantee;
+use crate::lagrangian::Lagrangian;
 use crate::measure::Domain;
+use crate::reduction::Reduced;
 use crate::sines::{Kind, Sines};
 
 /// Comments above the code. Without time, path or machine, so that the same specification gives the same bytes.
@@ -23,17 +26,24 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     let n = module.arm.dof();
     let p = module.lagrangian.functions.len();
     let mut lines = Vec::new();
-    let kept = module.reduced.selected.len();
-    if kept == 0 {
+    let kept = functions(module.lagrangian, module.reduced);
+    if kept.is_empty() {
         lines.push(format!(" Exact model of `{}`, {n} joints, in {} form.", module.name, module.form.name()));
     } else {
-        lines.push(format!(" Reduced model of `{}`, {n} joints: {kept} of {p} ψ functions.", module.name));
+        let (name, count) = (module.name, kept.len());
+        lines.push(if module.reduced.sparse.is_some() {
+            format!(
+                " Reduced model of `{name}`, {n} joints: {count} functions, where the exact model has {p}."
+            )
+        } else {
+            format!(" Reduced model of `{name}`, {n} joints: {count} of {p} ψ functions.")
+        });
     }
     lines.push(String::new());
-    for (number, &l) in (1..).zip(&module.reduced.selected) {
-        lines.push(format!(" - ψ_{number} = {}", module.lagrangian.functions[l]));
+    for (number, psi) in (1..).zip(&kept) {
+        lines.push(format!(" - ψ_{number} = {psi}"));
     }
-    if kept > 0 {
+    if !kept.is_empty() {
         lines.push(String::new());
     }
     let cost = |o: &crate::graph::Operations| {
@@ -45,9 +55,12 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     if let Some(line) = taken(sines) {
         lines.extend([line, String::new()]);
     }
-    if kept > 0 {
+    if !kept.is_empty() {
         lines.push(format!(" The exact model costs {}: {}", cost(&exact), verdict(&operations, &exact)));
         lines.push(String::new());
+        if let Some(known) = module.torque {
+            lines.extend([format!(" {}", torque(known)), String::new()]);
+        }
         lines.push(format!(
             " Domain of the bounds: {}. They are certified, rounding in f64 included; {}{}.",
             domain(module.domain),
@@ -148,6 +161,26 @@ pub(super) fn guaranteed(guarantee: &Guarantee) -> Vec<String> {
         lines.extend(guarantee.reasons.iter().map(|reason| format!(" - {reason}")));
     }
     lines
+}
+
+/// The functions that a reduced model keeps, as formulas; none for the exact one.
+pub(crate) fn functions(lagrangian: &Lagrangian, reduced: &Reduced) -> Vec<String> {
+    match &reduced.sparse {
+        Some(model) => model.functions.iter().map(|psi| psi.formula(lagrangian)).collect(),
+        None => reduced.selected.iter().map(|&l| lagrangian.functions[l].to_string()).collect(),
+    }
+}
+
+/// The certified torque error in one sentence; its digits are rounded up.
+pub(crate) fn torque(torque: &Torque) -> String {
+    let up = |x: f64| if x == 0.0 { "0".to_string() } else { format!("{:.3e}", x + 5e-4 * x.abs()) };
+    let down = |x: f64| format!("{:.3e}", x - 5e-4 * x.abs());
+    format!(
+        "Certified torque error by joint: at most ({}) of a peak torque of ({}), that is {} % in the worst joint.",
+        torque.error.iter().map(|&e| up(e)).collect::<Vec<_>>().join(", "),
+        torque.peak.iter().map(|&p| down(p)).collect::<Vec<_>>().join(", "),
+        up(100.0 * torque.fraction())
+    )
 }
 
 /// Whether reducing pays, in one sentence.

@@ -8,14 +8,14 @@ mod regression;
 mod sines;
 mod statements;
 
-pub(crate) use docs::{domain as domain_in_words, verdict};
+pub(crate) use docs::{domain as domain_in_words, functions, torque as torque_in_words, verdict};
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
 use crate::arm::{Arm, Uncertainty};
 use crate::body::{Form, Regressor};
-use crate::bounds::Bounds;
+use crate::bounds::{Bounds, Torque};
 use crate::design::Design;
 use crate::error::Error;
 use crate::graph::Graph;
@@ -41,6 +41,8 @@ pub struct Module<'a> {
     pub reduced: &'a Reduced,
     /// What it leaves out.
     pub bounds: &'a Bounds,
+    /// What that costs in torque, where the rates are known.
+    pub torque: Option<&'a Torque>,
     /// Where the bounds hold.
     pub domain: &'a Domain,
     /// How the torque is computed.

@@ -7,6 +7,9 @@ use serde::Serialize;
 
 use super::{Graph, Node};
 
+/// What one sine and cosine count for, in multiplications and additions.
+pub const TRIG_PAIR: usize = 12;
+
 /// Operations of one evaluation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Operations {
@@ -22,6 +25,11 @@ impl Operations {
     /// Multiplications and additions together.
     pub fn arithmetic(&self) -> usize {
         self.mul + self.add
+    }
+
+    /// What code is compared by: multiplications and additions, with every pair of sine and cosine as [`TRIG_PAIR`].
+    pub fn price(&self) -> usize {
+        self.arithmetic() + TRIG_PAIR * self.trig_pairs
     }
 }
 

@@ -10,7 +10,7 @@ mod node;
 mod tests;
 
 pub use build::{Builder, Expr};
-pub use count::Operations;
+pub use count::{Operations, TRIG_PAIR};
 pub use node::{Name, Node, NodeId, Variable};
 
 use crate::sines::Sines;

@@ -1,6 +1,7 @@
 //! The canonical functions ψ: cos(κ·q) and sin(κ·q), times powers of the prismatic coordinates.
 
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// Most joints an arm may have.
@@ -64,6 +65,46 @@ impl Function {
             }
         }
         monomial * if self.sine { libm::sin(angle) } else { libm::cos(angle) }
+    }
+
+    /// True for a function other than 1 in which every joint occurs once at most: |κ_j| ≤ 1, powers ≤ 1.
+    pub fn is_first_degree(&self) -> bool {
+        *self != Self::ONE && self.kappa.iter().all(|k| k.abs() <= 1) && self.power.iter().all(|&p| p <= 1)
+    }
+
+    /// The first joint that occurs; [`MAX_JOINTS`] for the constant.
+    pub fn leading_joint(&self) -> usize {
+        (0..MAX_JOINTS).find(|&j| self.moves(j)).unwrap_or(MAX_JOINTS)
+    }
+
+    /// True where no joint occurs in both.
+    pub fn is_disjoint(&self, other: &Self) -> bool {
+        (0..MAX_JOINTS).all(|j| !self.moves(j) || !other.moves(j))
+    }
+
+    fn moves(&self, j: usize) -> bool {
+        self.kappa[j] != 0 || self.power[j] != 0
+    }
+
+    /// The product ψ φ as a combination of at most two functions.
+    pub fn times(&self, other: &Self) -> BTreeMap<Self, f64> {
+        let pair = |sign: i8| std::array::from_fn(|j| self.kappa[j] + sign * other.kappa[j]);
+        let power = std::array::from_fn(|j| self.power[j] + other.power[j]);
+        // Of the sum and of the difference of the angles.
+        let (sine, sum, difference) = match (self.sine, other.sine) {
+            (false, false) => (false, 0.5, 0.5),
+            (true, true) => (false, -0.5, 0.5),
+            (true, false) => (true, 0.5, 0.5),
+            (false, true) => (true, 0.5, -0.5),
+        };
+        let mut out = BTreeMap::new();
+        for (kappa, k) in [(pair(1), sum), (pair(-1), difference)] {
+            if let Some((psi, sign)) = Self::canonical(kappa, power, sine) {
+                *out.entry(psi).or_insert(0.0) += sign * k;
+            }
+        }
+        out.retain(|_, k| *k != 0.0);
+        out
     }
 
     /// A name that is an identifier: `one`, `cos_q2_q3`, `sin_q2_m2q3`, `q3p2_cos_q2`; `m` stands for minus.

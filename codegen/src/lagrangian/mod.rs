@@ -36,6 +36,16 @@ pub struct Lagrangian {
 }
 
 impl Lagrangian {
+    /// The model of the arm as specified, every parameter known; functions and coefficients keep their numbers.
+    #[must_use]
+    pub fn at_nominal(&self) -> Self {
+        let mut known = self.clone();
+        known.ranges.clear();
+        known.variation_truncation.clear();
+        known.coefficients.iter_mut().for_each(|coefficient| coefficient.variations.clear());
+        known
+    }
+
     /// Nonzero terms over the distinct coefficients.
     pub fn terms(&self) -> usize {
         self.coefficients.iter().map(|c| c.terms.len()).sum()

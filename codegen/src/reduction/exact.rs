@@ -10,5 +10,6 @@ pub fn exact(lagrangian: &Lagrangian) -> Reduced {
         combinations: lagrangian.coefficients.iter().map(|c| c.terms.clone()).collect(),
         simplified: vec![false; lagrangian.coefficients.len()],
         variations: Vec::new(),
+        sparse: None,
     }
 }

@@ -28,7 +28,8 @@ pub struct Pick {
 
 /// State of the selection after some steps.
 pub struct GramSchmidt<'a> {
-    samples: &'a Samples,
+    functions: Vec<&'a [f64]>,
+    coefficients: &'a [Vec<f64>],
     /// e_1 … e_j.
     directions: Vec<Vec<f64>>,
     original: Vec<f64>,
@@ -42,14 +43,19 @@ pub struct GramSchmidt<'a> {
 impl<'a> GramSchmidt<'a> {
     /// Before the first step, j = 1.
     pub fn new(samples: &'a Samples) -> Self {
-        let norms: Vec<f64> = samples.functions.par_iter().map(|psi| dot(psi, psi)).collect();
-        let correlations = samples
-            .coefficients
+        Self::over(samples.functions.iter().map(Vec::as_slice).collect(), &samples.coefficients)
+    }
+
+    /// For some functions and some coefficients: [`Pick::function`] and [`Pick::projections`] count among these.
+    pub fn over(functions: Vec<&'a [f64]>, coefficients: &'a [Vec<f64>]) -> Self {
+        let norms: Vec<f64> = functions.par_iter().map(|psi| dot(psi, psi)).collect();
+        let correlations = coefficients
             .par_iter()
-            .map(|alpha| samples.functions.iter().map(|psi| dot(alpha, psi)).collect())
+            .map(|alpha| functions.iter().map(|psi| dot(alpha, psi)).collect())
             .collect();
         Self {
-            samples,
+            functions,
+            coefficients,
             directions: Vec::new(),
             original: norms.clone(),
             available: norms.iter().map(|&norm| norm > 0.0).collect(),
@@ -89,7 +95,7 @@ impl<'a> GramSchmidt<'a> {
     /// Parameters of (8) for every α_m over the raw chosen functions, in the order of choice.
     pub fn parameters(&self) -> Vec<Vec<f64>> {
         let count = self.picks.len();
-        (0..self.samples.coefficients.len())
+        (0..self.coefficients.len())
             .map(|m| {
                 // Back substitution: the chosen functions are an upper triangle over the directions.
                 let mut k: Vec<f64> = self.picks.iter().map(|pick| pick.projections[m]).collect();
@@ -122,7 +128,7 @@ impl<'a> GramSchmidt<'a> {
 
     /// ψ_l^(j), orthogonalised twice for full accuracy, and the components that were taken out.
     fn residual(&self, l: usize) -> (Vec<f64>, Vec<f64>) {
-        let mut vector = self.samples.functions[l].clone();
+        let mut vector = self.functions[l].to_vec();
         let mut components = vec![0.0; self.directions.len()];
         for _ in 0..2 {
             for (direction, component) in self.directions.iter().zip(&mut components) {
@@ -144,7 +150,7 @@ impl<'a> GramSchmidt<'a> {
             .map(|&l| {
                 let (vector, _) = self.residual(l);
                 let correlations: Vec<f64> =
-                    self.samples.coefficients.iter().map(|alpha| dot(alpha, &vector)).collect();
+                    self.coefficients.iter().map(|alpha| dot(alpha, &vector)).collect();
                 (l, dot(&vector, &vector), correlations)
             })
             .collect();
@@ -159,9 +165,8 @@ impl<'a> GramSchmidt<'a> {
 
     /// Rank-one updates (6), (7) for a new direction; returns the projections of the α_m.
     fn project(&mut self, direction: &[f64]) -> Vec<f64> {
-        let along: Vec<f64> = self.samples.functions.par_iter().map(|psi| dot(direction, psi)).collect();
-        let projections: Vec<f64> =
-            self.samples.coefficients.iter().map(|alpha| dot(direction, alpha)).collect();
+        let along: Vec<f64> = self.functions.par_iter().map(|psi| dot(direction, psi)).collect();
+        let projections: Vec<f64> = self.coefficients.iter().map(|alpha| dot(direction, alpha)).collect();
         for (norm, b) in self.norms.iter_mut().zip(&along) {
             *norm -= b * b;
         }

@@ -80,14 +80,19 @@ impl Columns {
 
     /// α − Σ_j k_j ψ_j.
     fn residual(&self, alpha: &[f64], parameters: &[f64]) -> Vec<f64> {
-        let mut out = alpha.to_vec();
-        for (psi, k) in self.functions.iter().zip(parameters) {
-            for (r, psi) in out.iter_mut().zip(psi) {
-                *r -= k * psi;
-            }
-        }
-        out
+        residual(&self.functions, alpha, parameters)
     }
+}
+
+/// α − Σ_j k_j ψ_j, given one column for each function.
+pub(super) fn residual(functions: &[Vec<f64>], alpha: &[f64], parameters: &[f64]) -> Vec<f64> {
+    let mut out = alpha.to_vec();
+    for (psi, k) in functions.iter().zip(parameters) {
+        for (r, psi) in out.iter_mut().zip(psi) {
+            *r -= k * psi;
+        }
+    }
+    out
 }
 
 /// Parameters of α̂_m in the order of selection.

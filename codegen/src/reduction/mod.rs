@@ -2,24 +2,34 @@
 
 mod basis;
 mod chebyshev;
+mod dictionary;
 mod exact;
 mod extremes;
 mod gram_schmidt;
 mod lu;
 mod minimax;
+mod rates;
 mod reestimate;
 mod regression;
 mod samples;
+mod separate;
 mod shared;
+mod sparse;
+mod tolerance;
 
+pub use dictionary::{Dictionary, minimax_sparse, over_dictionary};
 pub use exact::exact;
 pub use extremes::extremes;
 pub use gram_schmidt::{GramSchmidt, Pick};
 pub use minimax::minimax;
+pub use rates::{Columns, Rate, Term, Turned, columns, grouped, rates, summed};
 pub use reestimate::reestimate;
 pub use regression::{Learnt, Regression};
 pub use samples::Samples;
+pub use separate::{minimax_each, separate};
 pub use shared::shared;
+pub use sparse::{Candidate, Group, Sparse, products};
+pub use tolerance::{Member, Problem, family};
 
 use crate::lagrangian::{Coefficient, Combination, Entry, Lagrangian};
 use crate::measure::Measure;
@@ -31,12 +41,14 @@ use crate::measure::Measure;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reduced {
     /// The kept functions u_1 … u_ξ in the order of selection, as indices into [`Lagrangian::functions`];
-    /// empty for the exact model.
+    /// where every coefficient has its own, the union in ascending order; empty for the exact model.
     pub selected: Vec<usize>,
     /// α̂_m by index.
     pub combinations: Vec<Combination>,
     /// Whether α̂_m differs in form from α_m.
     pub simplified: Vec<bool>,
+    /// How the model is written down where it is more than its combinations.
+    pub sparse: Option<Sparse>,
     /// ∂α̂_m/∂u_k by index and uncertain parameter, for a law that learns u; empty where the model stays as it is.
     pub variations: Vec<Vec<Combination>>,
 }

@@ -190,6 +190,22 @@ const CASES: &[Case] = &[
         &["is 0", "at least 1"],
     ),
     case(
+        "no functions for each coefficient",
+        |i| {
+            i.set("/model", json!({ "separate": { "functions": 0 } }));
+        },
+        "model.separate.functions",
+        &["is 0", "at least 1"],
+    ),
+    case(
+        "no tolerance",
+        |i| {
+            i.set("/model", json!({ "tolerance": { "torque": 0.0 } }));
+        },
+        "model.tolerance.torque",
+        &["is 0", "above 0 and below 1"],
+    ),
+    case(
         "more functions than there are",
         |i| {
             i.set("/model/shared/functions", json!(12));

@@ -16,10 +16,10 @@ const CASES: &[Case] = &[
     case(
         "missing section",
         |i| {
-            i.remove("/model");
+            i.remove("/arm");
         },
-        "model",
-        &["is missing", "write \"exact\""],
+        "arm",
+        &["is missing", "write an object"],
     ),
     case(
         "unknown field",

@@ -1,0 +1,234 @@
+//! The descent: at each step every exchange that the step's error admits, the one with the best return first.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::fitting::{Form, Table};
+use super::moves::{Moves, united};
+use super::price::Prices;
+use super::ties::{exchanged, tied};
+use super::{FIRST, Member, STEP, start};
+use crate::lagrangian::Lagrangian;
+use crate::reduction::sparse::{Candidate, Group, Sparse};
+
+/// Exchanges whose error is above the step's by no more than this factor are fitted again to the room that the other
+/// coefficients leave.
+const NEARLY: f64 = 1.6;
+/// Longer forms are not.
+const REFITTED: usize = 6;
+
+/// An exchange: the form for the slots.
+struct Exchange {
+    slots: Vec<usize>,
+    form: Form,
+    score: f64,
+}
+
+struct Descent<'a> {
+    table: &'a Table,
+    prices: &'a Prices,
+    moves: Moves<'a>,
+    forms: Vec<Form>,
+    errors: Vec<Vec<f64>>,
+    simpler: Vec<Option<Vec<Form>>>,
+    united: BTreeMap<(usize, usize), Vec<Form>>,
+}
+
+/// The members with errors up to `most`.
+pub(super) fn members(
+    lagrangian: &Lagrangian,
+    candidates: &[Candidate],
+    table: &Table,
+    most: f64,
+) -> Vec<Member> {
+    let prices = Prices::new(lagrangian, candidates);
+    let forms: Vec<Form> = (0..lagrangian.coefficients.len())
+        .into_par_iter()
+        .map(|m| start::forms(lagrangian, table, m))
+        .collect();
+    let mut descent = Descent {
+        moves: Moves::new(lagrangian, candidates, &prices),
+        errors: errors(lagrangian.dof, table, &forms),
+        simpler: vec![None; forms.len()],
+        united: BTreeMap::new(),
+        prices: &prices,
+        table,
+        forms,
+    };
+    let mut out = Vec::new();
+    let mut cheapest = usize::MAX;
+    let mut level = FIRST;
+    while level <= most {
+        while let Some(exchange) = descent.best(level) {
+            descent.take(exchange);
+        }
+        let price = descent.price();
+        if price < cheapest && largest(&descent.errors) <= level {
+            cheapest = price;
+            let forms = tied(table, &descent.forms, &descent.errors, level);
+            let error = largest(&errors(lagrangian.dof, table, &forms));
+            out.push(Member { model: sparse(candidates, &forms), error });
+        }
+        level *= STEP;
+    }
+    out
+}
+
+impl Descent<'_> {
+    fn price(&self) -> usize {
+        self.prices.of(self.forms.iter().map(|form| (form.members.as_slice(), form.kept.as_slice())))
+    }
+
+    /// The price with `form` in the first of the slots and nothing in the others.
+    fn price_with(&self, slots: &[usize], form: &Form) -> usize {
+        self.prices.of(self.forms.iter().enumerate().map(|(s, old)| {
+            match slots.iter().position(|&t| t == s) {
+                Some(0) => (form.members.as_slice(), form.kept.as_slice()),
+                Some(_) => ([].as_slice(), [].as_slice()),
+                None => (old.members.as_slice(), old.kept.as_slice()),
+            }
+        }))
+    }
+
+    /// Operations saved per burden added, the most among the exchanges that leave all errors within `level`.
+    fn best(&mut self, level: f64) -> Option<Exchange> {
+        self.refresh();
+        let now = self.price();
+        let slots = (0..self.forms.len()).into_par_iter();
+        let single = slots.filter_map(|s| self.better(&[s], self.simpler[s].as_deref()?, now, level));
+        let pairs: Vec<_> = self.united.iter().filter(|(_, forms)| !forms.is_empty()).collect();
+        let double = pairs.par_iter().filter_map(|((a, b), forms)| self.better(&[*a, *b], forms, now, level));
+        let found: Vec<Exchange> = single.chain(double).collect();
+        found.into_iter().reduce(|best, other| if other.score > best.score { other } else { best })
+    }
+
+    fn better(&self, slots: &[usize], forms: &[Form], now: usize, level: f64) -> Option<Exchange> {
+        let old: Vec<&Form> = slots.iter().map(|&s| &self.forms[s]).collect();
+        let burden: f64 = old.iter().map(|form| form.burden).sum();
+        let mut best: Option<Exchange> = None;
+        for form in forms {
+            let price = self.price_with(slots, form);
+            if price >= now {
+                continue;
+            }
+            let score = (now - price) as f64 / (form.burden - burden).max(1e-9);
+            if best.as_ref().is_some_and(|best| score <= best.score) {
+                continue;
+            }
+            let reached = self.largest_with(&old, form);
+            let admitted = if reached <= level {
+                Some(form.clone())
+            } else if reached <= NEARLY * level {
+                self.refitted(&old, form, level)
+            } else {
+                None
+            };
+            if let Some(form) = admitted {
+                best = Some(Exchange { slots: slots.to_vec(), form, score });
+            }
+        }
+        best
+    }
+
+    /// The form with the parameters that keep it furthest within what the others leave of `level`.
+    fn refitted(&self, old: &[&Form], form: &Form, level: f64) -> Option<Form> {
+        let ([before], [(m, _)]) = (old, form.members.as_slice()) else { return None };
+        if form.kept.is_empty() || form.kept.len() > REFITTED {
+            return None;
+        }
+        let residual = before.residuals.first()?;
+        let room = |point: usize| {
+            let left =
+                |&(i, share): &(usize, f64)| (level - self.errors[i][point]) / share + residual[point].abs();
+            self.table.shares[*m].iter().map(left).fold(f64::INFINITY, f64::min)
+        };
+        let inverse: Vec<f64> = (0..residual.len()).map(|point| 1.0 / room(point).max(1e-9)).collect();
+        let new = Form::fitted(self.table, form.members.clone(), form.kept.clone(), Some(&inverse));
+        (self.largest_with(old, &new) <= level).then_some(new)
+    }
+
+    fn largest_with(&self, old: &[&Form], new: &Form) -> f64 {
+        let residuals: Vec<&Vec<f64>> = old.iter().flat_map(|form| &form.residuals).collect();
+        let mut largest = 0.0_f64;
+        for (i, errors) in self.errors.iter().enumerate() {
+            let parts: Vec<(f64, &[f64], &[f64])> = new
+                .members
+                .iter()
+                .enumerate()
+                .filter_map(|(place, &(m, _))| {
+                    let share = self.table.shares[m].iter().find(|share| share.0 == i)?.1;
+                    Some((share, new.residuals[place].as_slice(), residuals[place].as_slice()))
+                })
+                .collect();
+            if parts.is_empty() {
+                continue;
+            }
+            for (point, &error) in errors.iter().enumerate() {
+                let change: f64 = parts.iter().map(|(u, r, s)| u * (r[point].abs() - s[point].abs())).sum();
+                largest = largest.max(error + change);
+            }
+        }
+        largest
+    }
+
+    fn take(&mut self, exchange: Exchange) {
+        let old: Vec<&Form> = exchange.slots.iter().map(|&s| &self.forms[s]).collect();
+        self.errors = exchanged(self.table, &self.errors, &old, &exchange.form);
+        for &s in &exchange.slots {
+            self.forms[s] = Form::nothing();
+            self.simpler[s] = None;
+        }
+        self.united.retain(|(a, b), _| !exchange.slots.contains(a) && !exchange.slots.contains(b));
+        if let Some(&first) = exchange.slots.first() {
+            self.forms[first] = exchange.form;
+        }
+    }
+
+    /// Finds the exchanges of the forms that are new.
+    fn refresh(&mut self) {
+        let new: Vec<usize> = (0..self.forms.len()).filter(|&s| self.simpler[s].is_none()).collect();
+        let (table, moves, forms) = (self.table, &self.moves, &self.forms);
+        let simpler: Vec<Vec<Form>> = new.par_iter().map(|&s| moves.simpler(table, &forms[s])).collect();
+        let keys: Vec<(usize, usize)> = new
+            .iter()
+            .flat_map(|&s| (0..forms.len()).filter(move |&t| t != s).map(move |t| (s.min(t), s.max(t))))
+            .filter(|(a, b)| !forms[*a].kept.is_empty() && !forms[*b].kept.is_empty())
+            .collect();
+        let both: Vec<Vec<Form>> =
+            keys.par_iter().map(|&(a, b)| united(table, &forms[a], &forms[b])).collect();
+        for (s, forms) in new.into_iter().zip(simpler) {
+            self.simpler[s] = Some(forms);
+        }
+        self.united.extend(keys.into_iter().zip(both));
+    }
+}
+
+fn errors(dof: usize, table: &Table, forms: &[Form]) -> Vec<Vec<f64>> {
+    let mut out = vec![vec![0.0; table.points()]; dof];
+    for form in forms {
+        for (&(m, _), residual) in form.members.iter().zip(&form.residuals) {
+            for &(i, share) in &table.shares[m] {
+                out[i].iter_mut().zip(residual).for_each(|(e, r)| *e += share * r.abs());
+            }
+        }
+    }
+    out
+}
+
+fn largest(errors: &[Vec<f64>]) -> f64 {
+    errors.iter().flatten().fold(0.0, |m, &e| m.max(e))
+}
+
+fn sparse(candidates: &[Candidate], forms: &[Form]) -> Sparse {
+    let mut used: Vec<usize> = forms.iter().flat_map(|form| form.kept.iter().copied()).collect();
+    used.sort_unstable();
+    used.dedup();
+    let slot = |f: &usize| used.binary_search(f).ok();
+    let group = |form: &Form| Group {
+        members: form.members.clone(),
+        terms: form.kept.iter().zip(&form.parameters).filter_map(|(f, &k)| Some((slot(f)?, k))).collect(),
+    };
+    let groups = forms.iter().filter(|form| !form.kept.is_empty()).map(group).collect();
+    Sparse { functions: used.iter().map(|&f| candidates[f].clone()).collect(), groups }
+}

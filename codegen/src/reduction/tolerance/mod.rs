@@ -1,0 +1,71 @@
+//! Mode `tolerance`: a family of ever cheaper and coarser sparse models.
+//!
+//! The family is one descent for an arm, a domain and its rates, and knows nothing of the tolerance that somebody asks
+//! for: a looser one sees the members that a stricter one sees and more, so that it never costs more.
+
+mod descent;
+mod fitting;
+mod moves;
+mod price;
+mod start;
+mod ties;
+
+use rayon::prelude::*;
+
+use super::sparse::{Candidate, Sparse, products};
+use crate::lagrangian::{Lagrangian, evaluate};
+use fitting::Table;
+
+/// Where the descent begins: the torque error at the points as a fraction of the joint's torque.
+const FIRST: f64 = 2e-3;
+/// Ratio of the fractions of neighbouring steps.
+const STEP: f64 = 1.06;
+/// Where it ends in any case.
+const LAST: f64 = 0.5;
+
+/// What the models must be good for.
+#[derive(Clone, Copy, Debug)]
+pub struct Problem<'a> {
+    /// The exact model.
+    pub lagrangian: &'a Lagrangian,
+    /// By joint and coefficient: Ū_m, the most that multiplies α_m in that row, over the joint's torque.
+    pub shares: &'a [Vec<f64>],
+    /// Points of the domain, rad or m.
+    pub points: &'a [Vec<f64>],
+}
+
+/// A member of the family.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Member {
+    /// The model.
+    pub model: Sparse,
+    /// Largest Σ_m |r_m| Ū_m over the points and joints, as a fraction of the joint's torque; its maximum over the
+    /// domain is larger.
+    pub error: f64,
+}
+
+/// The members with errors up to `most`, the dearest first.
+///
+/// Where the exact model is too long for a search, the family is empty.
+pub fn family(problem: &Problem, most: f64) -> Vec<Member> {
+    let lagrangian = problem.lagrangian;
+    if most < FIRST || problem.points.is_empty() {
+        return Vec::new();
+    }
+    let mut candidates: Vec<Candidate> = (0..lagrangian.functions.len()).map(Candidate::harmonic).collect();
+    candidates.extend(products(lagrangian, 3));
+    let rows: Vec<(Vec<f64>, Vec<f64>)> = problem
+        .points
+        .par_iter()
+        .map(|q| {
+            let psi = lagrangian.evaluate_functions(q);
+            let functions = candidates.iter().map(|c| evaluate(&c.expansion, &psi)).collect();
+            (functions, lagrangian.coefficients.iter().map(|c| evaluate(&c.terms, &psi)).collect())
+        })
+        .collect();
+    let functions = (0..candidates.len()).map(|f| rows.iter().map(|row| row.0[f]).collect()).collect();
+    let coefficients =
+        (0..lagrangian.coefficients.len()).map(|m| rows.iter().map(|row| row.1[m]).collect()).collect();
+    let table = Table::new(problem, functions, coefficients);
+    descent::members(lagrangian, &candidates, &table, most.min(LAST))
+}

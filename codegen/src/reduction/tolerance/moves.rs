@@ -1,0 +1,93 @@
+//! Cheaper forms in place of the ones that a model has.
+
+use std::collections::BTreeSet;
+
+use super::fitting::{Form, Table};
+use super::price::Prices;
+use crate::lagrangian::{Function, Lagrangian};
+use crate::reduction::Candidate;
+
+/// Longer forms only lose functions.
+const LONG: usize = 8;
+/// Longer forms are not united.
+const UNITED: usize = 5;
+/// Parameters of the same function in two forms to be united differ by no more than this factor.
+const ALIKE: f64 = 1.4;
+
+/// The candidates by the ψ that they contain.
+pub(super) struct Moves<'a> {
+    candidates: &'a [Candidate],
+    prices: &'a Prices,
+    /// Products by ψ, without the constant.
+    containing: Vec<Vec<usize>>,
+    one: Option<usize>,
+}
+
+impl<'a> Moves<'a> {
+    pub fn new(lagrangian: &Lagrangian, candidates: &'a [Candidate], prices: &'a Prices) -> Self {
+        let one = lagrangian.functions.iter().position(|psi| *psi == Function::ONE);
+        let mut containing = vec![Vec::new(); lagrangian.functions.len()];
+        for (f, candidate) in candidates.iter().enumerate() {
+            for &(l, _) in candidate.expansion.iter().filter(|(l, _)| Some(*l) != one) {
+                containing[l].push(f);
+            }
+        }
+        Self { candidates, prices, containing, one }
+    }
+
+    /// `form` with one function less, or with a cheaper function in place of one or more.
+    pub fn simpler(&self, table: &Table, form: &Form) -> Vec<Form> {
+        let mut choices: BTreeSet<Vec<usize>> = BTreeSet::new();
+        let without = |gone: &dyn Fn(usize) -> bool| -> Vec<usize> {
+            form.kept.iter().copied().filter(|&f| !gone(f)).collect()
+        };
+        for &f in &form.kept {
+            choices.insert(without(&|other| other == f));
+            if form.kept.len() > LONG || Some(f) == self.one {
+                continue;
+            }
+            let single = self.candidates[f].factors.len() == 1;
+            let parts = &self.candidates[f].expansion;
+            for &other in parts.iter().flat_map(|&(l, _)| &self.containing[l]) {
+                if form.kept.contains(&other) || (single && self.candidates[other].factors.len() == 1) {
+                    continue;
+                }
+                // A product takes the place of all the ψ in it, of another product alone.
+                let covered = |l: usize| self.candidates[other].expansion.iter().any(|part| part.0 == l);
+                let mut kept = if single {
+                    without(&|f| Some(f) != self.one && self.candidates[f].factors.len() == 1 && covered(f))
+                } else {
+                    without(&|g| g == f)
+                };
+                kept.push(other);
+                kept.sort_unstable();
+                let dearer = self.prices.alone[other] > self.prices.alone[f];
+                let gain =
+                    if single { !dearer && self.prices.alone[other] < self.prices.alone[f] } else { !dearer };
+                if kept.len() < form.kept.len() || gain {
+                    choices.insert(kept);
+                }
+            }
+        }
+        choices.into_iter().map(|kept| Form::fitted(table, form.members.clone(), kept, None)).collect()
+    }
+}
+
+/// One form for the coefficients of both, where theirs are alike.
+pub(super) fn united(table: &Table, a: &Form, b: &Form) -> Vec<Form> {
+    let alike = a.kept.len().abs_diff(b.kept.len()) <= 1 && a.kept.len().max(b.kept.len()) <= UNITED;
+    let parameter = |form: &Form, f: usize| {
+        form.kept.iter().position(|&kept| kept == f).map(|place| form.parameters[place])
+    };
+    let shared = a.kept.iter().find_map(|&f| Some(parameter(a, f)? / parameter(b, f)?));
+    let Some(ratio) = shared.filter(|ratio| alike && ratio.abs() < ALIKE && ratio.abs() > 1.0 / ALIKE) else {
+        return Vec::new();
+    };
+    let turned = b.members.iter().map(|&(m, sign)| (m, sign * ratio.signum()));
+    let members: Vec<_> = a.members.iter().copied().chain(turned).collect();
+    let mut choices = vec![&a.kept];
+    if a.kept != b.kept {
+        choices.push(&b.kept);
+    }
+    choices.into_iter().map(|kept| Form::fitted(table, members.clone(), kept.clone(), None)).collect()
+}

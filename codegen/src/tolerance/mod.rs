@@ -1,0 +1,185 @@
+//! Mode `tolerance`: the cheapest model whose certified torque error is small enough.
+
+mod search;
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use crate::arm::Arm;
+use crate::body::{self, Form};
+use crate::bounds::{
+    Certificate, Effort, Rates, certified_beside, separate_error, torque_exceeds, workspace_peak_torque,
+};
+use crate::graph::Graph;
+use crate::lagrangian::Lagrangian;
+use crate::measure::{Domain, Measure};
+use crate::motion::Motion;
+use crate::reduction::{self, Problem, Reduced, extremes};
+
+/// Points of the domain at which the family of models is fitted, besides corners.
+const POINTS: usize = 400;
+/// A search's largest error times this must stay within the limit before a certificate is tried, which costs far more
+/// and would hardly close.
+const MARGIN: f64 = 1.03;
+/// Where the sum of the coefficients' largest errors exceeds the limit by more than this, the sharper sum of the errors
+/// at the same position is not tried: its proof would not end.
+const HOPELESS: f64 = 1.8;
+/// Work for each coefficient's certificate.
+const EFFORT: Effort = Effort { tolerance: 0.03, boxes: 2000, starts: 3, seek_tube: false };
+/// Corners of the joint box among them.
+const CORNERS: usize = 32;
+/// The exact model beyond which no sparse one is sought: none of a useful tolerance would be cheaper than the recursion.
+const LONG: usize = 4000;
+
+/// What the torque error is measured with: rates and the largest torques that they lead to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scale {
+    /// Over a workspace the joints' limits, around a motion the motion's own.
+    pub rates: Rates,
+    /// Largest |τ| by joint, N·m or N: along the motion, or the largest found over the workspace with the same rates,
+    /// which is attained there.
+    pub peak: Vec<f64>,
+}
+
+impl Scale {
+    /// `None` over a workspace where a joint lacks a limit.
+    pub fn new(arm: &Arm, domain: &Domain, motion: Option<&Motion>) -> Option<Self> {
+        match (domain, motion) {
+            (Domain::Workspace(limits), _) => {
+                let rates = Rates::limits(arm)?;
+                Some(Self { peak: workspace_peak_torque(arm, limits, &rates), rates })
+            }
+            (_, Some(motion)) => {
+                Some(Self { rates: Rates::of(motion), peak: crate::bounds::peak_torque(arm, motion) })
+            }
+            (_, None) => None,
+        }
+    }
+}
+
+/// A model and its code.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    /// The model.
+    pub reduced: Reduced,
+    /// How it computes the torque.
+    pub form: Form,
+    /// The torque.
+    pub code: Graph,
+}
+
+/// The cheapest among the exact model and the family of sparse ones whose certified torque error over the domain
+/// stays within `fraction` of each joint's peak torque.
+///
+/// Cheap means few multiplications and additions of the code, with every sine-cosine pair as
+/// [`crate::graph::TRIG_PAIR`]. Neither the family nor its certificates depend on the fraction, and the first member in
+/// ascending price that is certified is taken, so that a larger fraction never costs more.
+pub fn cheapest(
+    lagrangian: &Lagrangian,
+    domain: &Domain,
+    motion: Option<&Motion>,
+    measure: &Measure,
+    scale: Option<&Scale>,
+    fraction: f64,
+    exact: (Form, &Graph),
+) -> Choice {
+    let unreduced = || Choice { reduced: reduction::exact(lagrangian), form: exact.0, code: exact.1.clone() };
+    let Some(scale) = scale.filter(|scale| scale.peak.iter().all(|&peak| peak > 0.0)) else {
+        return unreduced();
+    };
+    if lagrangian.terms() > LONG {
+        return unreduced();
+    }
+    let shares: Vec<Vec<f64>> = scale
+        .peak
+        .iter()
+        .enumerate()
+        .map(|(i, peak)| scale.rates.multipliers(lagrangian, i).into_iter().map(|u| u / peak).collect())
+        .collect();
+    let everywhere = extremes(measure, domain, motion);
+    let points = points(domain, &everywhere);
+    // Over a workspace the search climbs, around a motion it looks at more points.
+    let probes = if matches!(domain, Domain::Workspace(_)) { &points } else { &everywhere };
+    let family = reduction::family(&Problem { lagrangian, shares: &shares, points: &points }, fraction);
+    let mut choices: Vec<Choice> = family
+        .into_par_iter()
+        .map(|member| {
+            let reduced = member.model.reduced(lagrangian);
+            let code = match &reduced.sparse {
+                Some(model) => body::sparse(lagrangian, model),
+                None => exact.1.clone(),
+            };
+            Choice { reduced, form: Form::Sparse, code }
+        })
+        .filter(|choice| choice.code.operations().price() < exact.1.operations().price())
+        .collect();
+    choices.sort_by_key(|choice| choice.code.operations().price());
+    let limits: Vec<f64> = scale.peak.iter().map(|peak| fraction * peak).collect();
+    let mut proofs = Proofs::default();
+    choices
+        .into_iter()
+        .find(|choice| {
+            let reduced = &choice.reduced;
+            if !reduced.is_finite()
+                || search::largest(lagrangian, reduced, &shares, domain, probes) * MARGIN > fraction
+            {
+                return false;
+            }
+            let certificates = proofs.of(lagrangian, reduced, domain, motion);
+            let separate = separate_error(lagrangian, &certificates, &scale.rates);
+            let part = separate.iter().zip(&limits).map(|(e, limit)| e / limit).fold(0.0, f64::max);
+            part <= 1.0
+                || part <= HOPELESS
+                    && torque_exceeds(
+                        lagrangian,
+                        reduced,
+                        domain,
+                        motion,
+                        &certificates,
+                        &scale.rates,
+                        &limits,
+                    )
+                    .is_none()
+        })
+        .unwrap_or_else(unreduced)
+}
+
+/// Certificates by coefficient and form: members of a family share most.
+#[derive(Default)]
+struct Proofs {
+    known: BTreeMap<(usize, Vec<(usize, u64)>), Certificate>,
+}
+
+impl Proofs {
+    fn of(
+        &mut self,
+        lagrangian: &Lagrangian,
+        reduced: &Reduced,
+        domain: &Domain,
+        motion: Option<&Motion>,
+    ) -> Vec<Certificate> {
+        let key = |m: usize| (m, reduced.combinations[m].iter().map(|&(l, k)| (l, k.to_bits())).collect());
+        let known = |m: usize| self.known.get(&key(m)).cloned();
+        let all = certified_beside(lagrangian, reduced, domain, motion, &EFFORT, known);
+        for (m, certificate) in all.iter().enumerate() {
+            self.known.insert(key(m), certificate.clone());
+        }
+        all
+    }
+}
+
+/// Some of the points of the domain, evenly spread, with corners.
+fn points(domain: &Domain, all: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    match domain {
+        Domain::Workspace(limits) => {
+            let corners = 1_usize << limits.len();
+            let stride = (corners / CORNERS).max(1);
+            let first = all.len().saturating_sub(corners);
+            let some = all[first..].iter().step_by(stride);
+            all[..first].iter().take(POINTS).chain(some).cloned().collect()
+        }
+        // An odd stride, so that instants and sides of the box both take turns.
+        _ => all.iter().step_by((all.len() / POINTS).max(1) | 1).cloned().collect(),
+    }
+}

@@ -1,0 +1,197 @@
+//! Modes `tolerance` and `auto`, and dictionaries with products.
+//!
+//! The full sweep takes the six-joint arms and the Panda:
+//! `cargo test --release -p gramforge-tests --test tolerance -- --include-ignored --nocapture`
+
+use std::path::{Path, PathBuf};
+
+use gramforge::Generation;
+use gramforge::bounds::{Effort, Rates};
+use gramforge::lagrangian::expand;
+use gramforge::load::{Loaded, load};
+use gramforge::measure::Domain;
+use gramforge::reduction::{Dictionary, products};
+use gramforge::spec::{DictionarySpec, MeasureSpec, ModelSpec};
+use gramforge::spread::{Spread, in_box};
+
+fn file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(name).with_extension("json")
+}
+
+fn specified(name: &str) -> Loaded {
+    load(&file(name)).unwrap()
+}
+
+/// The first three links of a PUMA 560 over all that their limits admit.
+fn workspace() -> Loaded {
+    let mut loaded = specified("puma3");
+    loaded.spec.measure = Some(MeasureSpec::Workspace);
+    loaded.spec.motion = None;
+    loaded.spec.control = None;
+    loaded
+}
+
+fn made(mut loaded: Loaded, model: ModelSpec) -> Generation {
+    loaded.spec.model = model;
+    Generation::with_effort(loaded, &Effort { boxes: 500, ..Effort::default() }).unwrap()
+}
+
+fn within(loaded: &Loaded, torque: f64) -> Generation {
+    made(loaded.clone(), ModelSpec::Tolerance { torque })
+}
+
+/// The emitted code against the exact code at states of the domain, rates in corners of their box.
+fn search(generation: &Generation, states: usize) -> f64 {
+    let Generation { arm, motion, domain, .. } = generation;
+    let torque = generation.torque.as_ref().unwrap();
+    let n = arm.dof();
+    let rates = match (domain, motion) {
+        (Domain::Workspace(_), _) | (_, None) => Rates::limits(arm).unwrap(),
+        (_, Some(motion)) => Rates::of(motion),
+    };
+    let spread = Spread::new(n + 1);
+    let mut worst = 0.0_f64;
+    for index in 0..states {
+        let mut unit = spread.point(index);
+        if index % 3 == 0 {
+            unit[..n].iter_mut().for_each(|u| *u = u.round());
+        }
+        let q: Vec<f64> = match (domain, motion) {
+            (Domain::Workspace(limits), _) => in_box(limits, &unit[..n]),
+            (Domain::Tube(errors), Some(motion)) => {
+                let centre = motion.at(motion.duration() * unit[n]).q;
+                centre.iter().zip(errors).zip(&unit).map(|((q, e), u)| q + e * (2.0 * u - 1.0)).collect()
+            }
+            (_, Some(motion)) => motion.at(motion.duration() * unit[n]).q,
+            (_, None) => continue,
+        };
+        let corner = |rate: &[f64], salt: usize| -> Vec<f64> {
+            let bits = (index + 1).wrapping_mul(0x9e37_79b9) >> salt;
+            rate.iter().enumerate().map(|(i, r)| if bits >> i & 1 == 1 { -r } else { *r }).collect()
+        };
+        let (v, w) = (corner(&rates.speed, 5), corner(&rates.reference_speed, 11));
+        let a = corner(&rates.reference_acceleration, 17);
+        let model = generation.code.interpret(&q, &v, &w, &a);
+        let exact = generation.exact_code.interpret(&q, &v, &w, &a);
+        for i in 0..n {
+            let error = (model[i] - exact[i]).abs();
+            let rounding = 1e-11 * torque.peak[i];
+            assert!(error <= torque.error[i] + rounding, "joint {}: {error} > {}", i + 1, torque.error[i]);
+            worst = worst.max(error / torque.peak[i]);
+        }
+    }
+    worst
+}
+
+/// Never dearer than exact, never dearer for a larger tolerance, certified within it.
+fn sweep(loaded: &Loaded, tolerances: &[f64], states: usize) -> Vec<Generation> {
+    println!("{}\n  tolerance  operations  pairs  certified  found  form", loaded.spec.name);
+    let mut before = usize::MAX;
+    let mut all = Vec::new();
+    for &tolerance in tolerances {
+        let generation = within(loaded, tolerance);
+        let (own, exact) = (generation.code.operations(), generation.exact_code.operations());
+        assert!(own.price() <= exact.price(), "{tolerance}: {own:?}, exact {exact:?}");
+        assert!(own.price() <= before, "{tolerance} costs {} after {before}", own.price());
+        before = own.price();
+        let certified = generation.torque.as_ref().unwrap().fraction();
+        assert!(certified <= tolerance, "{tolerance}: certified {certified}");
+        let found = search(&generation, states);
+        let (count, pairs, form) = (own.arithmetic(), own.trig_pairs, generation.form.name());
+        println!("  {tolerance:8}  {count:8}  {pairs:5}  {certified:9.5}  {found:.5}  {form}");
+        all.push(generation);
+    }
+    all
+}
+
+#[test]
+fn looser_tolerances_cost_less_and_every_certificate_holds() {
+    let loaded = workspace();
+    let sweep = sweep(&loaded, &[0.001, 0.005, 0.01, 0.03, 0.1, 0.2], 3_000);
+    let price = |generation: &Generation| generation.code.operations().price();
+    let (first, last) = (sweep.first().unwrap(), sweep.last().unwrap());
+    assert!(price(last) < price(&sweep[2]) && price(&sweep[2]) < price(first));
+    assert_eq!(last.form.name(), "sparse");
+    // The certificate is not idle: a search comes near it.
+    assert!(search(last, 20_000) > 0.3 * last.torque.as_ref().unwrap().fraction());
+}
+
+#[test]
+fn a_tube_is_reduced_too() {
+    let generation = within(&specified("puma3"), 0.02);
+    assert!(generation.torque.as_ref().unwrap().fraction() <= 0.02);
+    search(&generation, 3_000);
+}
+
+#[test]
+fn without_a_model_the_tolerance_is_one_per_cent() {
+    let auto = made(workspace(), ModelSpec::default());
+    let stated = within(&workspace(), 0.01);
+    assert_eq!(auto.reduced, stated.reduced);
+    assert_eq!(auto.code, stated.code);
+}
+
+#[test]
+fn the_choice_does_not_depend_on_the_number_of_threads() {
+    let several = within(&workspace(), 0.02);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let one = pool.install(|| within(&workspace(), 0.02));
+    assert_eq!(several.reduced, one.reduced);
+    assert_eq!(several.module().unwrap(), one.module().unwrap());
+}
+
+#[test]
+fn the_module_states_the_torque_error_and_whether_reducing_pays() {
+    let text = within(&workspace(), 0.05).module().unwrap();
+    assert!(text.contains("Certified torque error by joint: at most ("));
+    assert!(text.contains("the reduced one saves "));
+}
+
+/// The report counts p = 17 where 13 functions are independent.
+#[test]
+fn the_report_s_dictionary_of_a_puma_has_17_functions() {
+    let lagrangian = expand(&made(specified("puma3"), ModelSpec::Exact).arm);
+    assert_eq!(lagrangian.functions.len(), 13);
+    assert_eq!(Dictionary::Product.functions(&lagrangian).len(), 17);
+    assert_eq!(products(&lagrangian, 2).len(), 10);
+    // Every product is what its expansion says.
+    for candidate in Dictionary::Union.functions(&lagrangian) {
+        for q in [[0.3, -0.4, 1.2], [-1.0, 2.0, 0.7]] {
+            let psi = lagrangian.evaluate_functions(&q);
+            let product: f64 = candidate.factors.iter().map(|&l| psi[l]).product();
+            let sum: f64 = candidate.expansion.iter().map(|&(l, k)| k * psi[l]).sum();
+            assert!((product - sum).abs() < 1e-15, "{}", candidate.formula(&lagrangian));
+        }
+    }
+}
+
+#[test]
+fn models_over_products_keep_their_bounds_and_reach_the_exact_one() {
+    for dictionary in [DictionarySpec::Product, DictionarySpec::Union] {
+        let mut loaded = specified("puma3");
+        loaded.spec.dictionary = dictionary;
+        let mut before = f64::INFINITY;
+        for functions in [2, 4, 6] {
+            let model = ModelSpec::Separate { functions };
+            let generation = made(loaded.clone(), model);
+            search(&generation, 1_000);
+            let error = generation.torque.as_ref().unwrap().fraction();
+            assert!(error < before, "{dictionary:?}, ξ = {functions}: {error} after {before}");
+            before = error;
+            let shared = made(loaded.clone(), ModelSpec::Shared { functions });
+            search(&shared, 1_000);
+        }
+        // Dependent candidates are passed over: 13 functions span the model.
+        let whole = made(loaded.clone(), ModelSpec::Shared { functions: 13 });
+        assert!(search(&whole, 500) < 1e-9);
+    }
+}
+
+#[test]
+#[ignore = "minutes; see the command above"]
+fn full_sweep() {
+    let tolerances = [0.001, 0.002, 0.005, 0.01, 0.025, 0.05, 0.1, 0.2];
+    for name in ["puma560_workspace", "puma3", "ur5", "stanford", "panda"] {
+        sweep(&specified(name), &tolerances, 100_000);
+    }
+}
