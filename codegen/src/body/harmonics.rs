@@ -77,7 +77,8 @@ impl<'g> Harmonics<'g> {
         }
         let (sin, cos) = single;
         let pair = if k == 2 {
-            ((sin + sin) * cos, cos * cos - sin * sin)
+            let twice = sin + sin;
+            (twice * cos, self.builder.constant(1.0) - twice * sin)
         } else {
             sum(self.multiple(j, k - 1), single)
         };

@@ -46,7 +46,7 @@ pub fn sparse(lagrangian: &Lagrangian, model: &Sparse) -> Graph {
             torque.unwrap_or(builder.constant(0.0)).named(&format!("tau{i}"), true).id()
         })
         .collect();
-    builder.finish(&outputs)
+    builder.finish(&outputs).factored()
 }
 
 /// Which rates each group meets in each row, and which sums are built by columns.

@@ -11,6 +11,8 @@ mod envelope;
 mod estimate;
 mod expansion;
 mod factor;
+mod grid;
+mod lattice;
 mod peak;
 mod polynomial;
 mod recursion;
@@ -18,6 +20,7 @@ mod region;
 mod residual;
 mod rounding;
 mod sines;
+mod sum;
 mod taylor;
 mod tensors;
 #[cfg(test)]

@@ -86,12 +86,30 @@ impl Polynomial {
             // k cos θ = Re k e^{iθ} and k sin θ = Re(−ik e^{iθ}).
             slot[usize::from(psi.sine)] += if psi.sine { -k } else { k };
         }
+        Self::of(joints, prismatic, gathered)
+    }
+
+    fn of(joints: Vec<usize>, prismatic: Vec<bool>, gathered: BTreeMap<Vec<i8>, Complex>) -> Self {
         let exponents: Vec<Vec<i8>> = gathered.keys().cloned().collect();
         let largest: Vec<i8> = (0..joints.len())
             .map(|slot| exponents.iter().map(|e| e[slot].abs()).max().unwrap_or(0))
             .collect();
         let levels = levels(&exponents, &largest);
         Self { joints, prismatic, largest, levels, coefficients: gathered.into_values().collect(), exponents }
+    }
+
+    /// Over the same joints the sum of the terms as `change` turns them: other exponents, and a factor.
+    pub(super) fn mapped(&self, change: impl Fn(&[i8]) -> (Vec<i8>, f64)) -> Self {
+        let mut gathered: BTreeMap<Vec<i8>, Complex> = BTreeMap::new();
+        for (c, exponents) in self.coefficients.iter().zip(&self.exponents) {
+            let (exponents, factor) = change(exponents);
+            if factor != 0.0 {
+                let slot = gathered.entry(exponents).or_default();
+                slot[0] += factor * c[0];
+                slot[1] += factor * c[1];
+            }
+        }
+        Self::of(self.joints.clone(), self.prismatic.clone(), gathered)
     }
 
     /// Magnitude |c_l| and exponents of every term.

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::region::{Region, reach};
 use super::residual::Residual;
 use super::weighted::{Part, Stop, Weighted};
-use super::{Certificate, residuals, rounding};
+use super::{Certificate, lattice, residuals, rounding};
 use crate::arm::{Arm, Uncertainty};
 use crate::dynamics::inverse_dynamics;
 use crate::lagrangian::{Entry, Lagrangian};
@@ -15,10 +15,12 @@ use crate::reduction::Reduced;
 
 /// Terms that all boxes of one joint may visit together.
 const TERMS: usize = 20_000_000;
-/// Boxes of one joint at most.
+/// Boxes of one joint around a motion at most.
 const BOXES: usize = 10_000;
 /// The same where a limit is to be kept.
 const BOXES_WITHIN: usize = 6_000;
+/// Cells of one joint over a workspace, where they cost little.
+const CELLS: usize = 50_000;
 /// Where bound and largest value found differ by less than this fraction, halving stops.
 const TOLERANCE: f64 = 0.02;
 /// Instants of the motion at which its torque is taken.
@@ -176,13 +178,22 @@ impl<'a> Sums<'a> {
             return 0.0;
         }
         let slack = 1.0 + rounding::gamma(1024.0);
-        let most = if limit.is_some() { BOXES_WITHIN } else { BOXES };
+        let most = match (self.domain, limit) {
+            (Domain::Workspace(_), _) => CELLS,
+            (_, Some(_)) => BOXES_WITHIN,
+            (_, None) => BOXES,
+        };
         let limit = limit.map(|limit| (limit / slack - extra) * (1.0 - f64::EPSILON));
         let cells = (TERMS / count.max(1)).clamp(16, most);
         let joints: Vec<usize> = (0..self.lagrangian.dof).collect();
-        let region = Region::new(self.domain, self.motion, &joints);
-        let sum = Weighted::new(parts, &terms, self.domain, self.motion, &self.reach);
-        let range = sum.range(&region, &Stop { tolerance: TOLERANCE, cells, limit });
+        let stop = Stop { tolerance: TOLERANCE, cells, limit };
+        let range = match self.domain {
+            Domain::Workspace(limits) => lattice::range(&parts, limits, &stop),
+            _ => {
+                let region = Region::new(self.domain, self.motion, &joints);
+                Weighted::new(parts, &terms, self.domain, self.motion, &self.reach).range(&region, &stop)
+            }
+        };
         let bound = ((range.upper + extra).min(separate) * slack).next_up();
         if bound < f64::MIN_POSITIVE { 0.0 } else { bound }
     }

@@ -1,7 +1,5 @@
 //! Mode `tolerance`: the cheapest model whose certified torque error is small enough.
 
-mod search;
-
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
@@ -12,22 +10,22 @@ use crate::bounds::{
     Certificate, Effort, Rates, certified_beside, separate_error, torque_exceeds, workspace_peak_torque,
 };
 use crate::graph::Graph;
-use crate::lagrangian::Lagrangian;
+use crate::lagrangian::{Combination, Lagrangian, evaluate};
 use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::reduction::{self, Problem, Reduced, extremes};
+use crate::spread::{Spread, corner, in_box};
 
 /// Points of the domain at which the family of models is fitted, besides corners.
 const POINTS: usize = 400;
-/// A search's largest error times this must stay within the limit before a certificate is tried, which costs far more
-/// and would hardly close.
-const MARGIN: f64 = 1.03;
-/// Where the sum of the coefficients' largest errors exceeds the limit by more than this, the sharper sum of the errors
-/// at the same position is not tried: its proof would not end.
+/// How far points are spread beyond a workspace before they are moved back to its sides, where errors are largest.
+const STRETCH: f64 = 1.5;
+/// Around a motion, where the sum of the coefficients' largest errors exceeds the limit by more than this, the sharper
+/// sum of the errors at the same position is not tried: its proof would not end.
 const HOPELESS: f64 = 1.8;
 /// Work for each coefficient's certificate.
 const EFFORT: Effort = Effort { tolerance: 0.03, boxes: 2000, starts: 3, seek_tube: false };
-/// Corners of the joint box among them.
+/// Corners of the joint box beside them.
 const CORNERS: usize = 32;
 /// The exact model beyond which no sparse one is sought: none of a useful tolerance would be cheaper than the recursion.
 const LONG: usize = 4000;
@@ -99,8 +97,6 @@ pub fn cheapest(
         .collect();
     let everywhere = extremes(measure, domain, motion);
     let points = points(domain, &everywhere);
-    // Over a workspace the search climbs, around a motion it looks at more points.
-    let probes = if matches!(domain, Domain::Workspace(_)) { &points } else { &everywhere };
     let family = reduction::family(&Problem { lagrangian, shares: &shares, points: &points }, fraction);
     let mut choices: Vec<Choice> = family
         .into_par_iter()
@@ -121,26 +117,16 @@ pub fn cheapest(
         .into_iter()
         .find(|choice| {
             let reduced = &choice.reduced;
-            if !reduced.is_finite()
-                || search::largest(lagrangian, reduced, &shares, domain, probes) * MARGIN > fraction
-            {
+            if !reduced.is_finite() || seen(lagrangian, reduced, &shares, &everywhere) > fraction {
                 return false;
             }
             let certificates = proofs.of(lagrangian, reduced, domain, motion);
             let separate = separate_error(lagrangian, &certificates, &scale.rates);
             let part = separate.iter().zip(&limits).map(|(e, limit)| e / limit).fold(0.0, f64::max);
-            part <= 1.0
-                || part <= HOPELESS
-                    && torque_exceeds(
-                        lagrangian,
-                        reduced,
-                        domain,
-                        motion,
-                        &certificates,
-                        &scale.rates,
-                        &limits,
-                    )
-                    .is_none()
+            let exceeds =
+                || torque_exceeds(lagrangian, reduced, domain, motion, &certificates, &scale.rates, &limits);
+            let hopeful = matches!(domain, Domain::Workspace(_)) || part <= HOPELESS;
+            part <= 1.0 || hopeful && exceeds().is_none()
         })
         .unwrap_or_else(unreduced)
 }
@@ -169,15 +155,30 @@ impl Proofs {
     }
 }
 
-/// Some of the points of the domain, evenly spread, with corners.
+/// Largest Σ_m |r_m| `shares`_im over joints and `points`.
+fn seen(lagrangian: &Lagrangian, reduced: &Reduced, shares: &[Vec<f64>], points: &[Vec<f64>]) -> f64 {
+    let residuals: Vec<Combination> =
+        (0..reduced.combinations.len()).map(|m| reduced.residual(lagrangian, m)).collect();
+    let at = |q: &Vec<f64>| {
+        let psi = lagrangian.evaluate_functions(q);
+        let left: Vec<f64> = residuals.iter().map(|terms| evaluate(terms, &psi).abs()).collect();
+        let row = |row: &Vec<f64>| row.iter().zip(&left).map(|(u, r)| u * r).sum::<f64>();
+        shares.iter().map(row).fold(0.0, f64::max)
+    };
+    points.par_iter().map(at).reduce(|| 0.0, f64::max)
+}
+
+/// Points of the domain to fit to: few, evenly spread, with sides and corners.
 fn points(domain: &Domain, all: &[Vec<f64>]) -> Vec<Vec<f64>> {
     match domain {
         Domain::Workspace(limits) => {
-            let corners = 1_usize << limits.len();
-            let stride = (corners / CORNERS).max(1);
-            let first = all.len().saturating_sub(corners);
-            let some = all[first..].iter().step_by(stride);
-            all[..first].iter().take(POINTS).chain(some).cloned().collect()
+            let n = limits.len();
+            let spread = Spread::new(n);
+            let side = |u: &f64| (0.5 + STRETCH * (u - 0.5)).clamp(0.0, 1.0);
+            let some = (0..POINTS).map(|index| spread.point(index).iter().map(side).collect::<Vec<_>>());
+            let corners = 1_usize << n;
+            let some_corners = (0..corners).step_by((corners / CORNERS).max(1)).map(|index| corner(index, n));
+            some.chain(some_corners).map(|unit| in_box(limits, &unit)).collect()
         }
         // An odd stride, so that instants and sides of the box both take turns.
         _ => all.iter().step_by((all.len() / POINTS).max(1) | 1).cloned().collect(),

@@ -1,6 +1,7 @@
 //! The descent: at each step every exchange that the step's error admits, the one with the best return first.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -17,6 +18,12 @@ use crate::reduction::sparse::{Candidate, Group, Sparse};
 const NEARLY: f64 = 1.6;
 /// Longer forms are not.
 const REFITTED: usize = 6;
+/// The room of a point is at least this part of the level, so that one point does not decide alone.
+const LEAST_ROOM: f64 = 0.02;
+/// Ratio of the levels at which the descent is polished.
+const POLISH: f64 = 1.2;
+/// Ties may bring the errors back up to this part of the level.
+const TIED: f64 = 0.97;
 
 /// An exchange: the form for the slots.
 struct Exchange {
@@ -25,32 +32,47 @@ struct Exchange {
     score: f64,
 }
 
-struct Descent<'a> {
-    table: &'a Table,
+/// Where the descent stands. Cheap to copy.
+#[derive(Clone)]
+pub(super) struct Descent<'a> {
+    pub table: &'a Table,
     prices: &'a Prices,
-    moves: Moves<'a>,
-    forms: Vec<Form>,
-    errors: Vec<Vec<f64>>,
-    simpler: Vec<Option<Vec<Form>>>,
-    united: BTreeMap<(usize, usize), Vec<Form>>,
+    moves: &'a Moves<'a>,
+    /// By slot.
+    pub forms: Vec<Arc<Form>>,
+    /// By joint and point.
+    pub errors: Vec<Vec<f64>>,
+    simpler: Vec<Option<Arc<Vec<Form>>>>,
+    united: BTreeMap<(usize, usize), Arc<Vec<Form>>>,
+    /// What each exchange took the place of, by the slot of its form.
+    pub history: Vec<Vec<Vec<(usize, Arc<Form>)>>>,
+    /// A slot and the functions that it is not to keep again.
+    pub barred: Option<(usize, Vec<usize>)>,
+    /// Power of the operations saved in the score of an exchange; below 1 small steps are preferred.
+    keen: f64,
 }
 
-/// The members with errors up to `most`.
+/// The members with errors up to `most`, of a descent as `keen` on large steps as that.
 pub(super) fn members(
     lagrangian: &Lagrangian,
     candidates: &[Candidate],
     table: &Table,
     most: f64,
+    keen: f64,
 ) -> Vec<Member> {
     let prices = Prices::new(lagrangian, candidates);
-    let forms: Vec<Form> = (0..lagrangian.coefficients.len())
+    let forms: Vec<Arc<Form>> = (0..lagrangian.coefficients.len())
         .into_par_iter()
-        .map(|m| start::forms(lagrangian, table, m))
+        .map(|m| Arc::new(start::forms(lagrangian, table, m)))
         .collect();
+    let moves = Moves::new(lagrangian, candidates, &prices);
     let mut descent = Descent {
-        moves: Moves::new(lagrangian, candidates, &prices),
+        moves: &moves,
         errors: errors(lagrangian.dof, table, &forms),
         simpler: vec![None; forms.len()],
+        history: vec![Vec::new(); forms.len()],
+        barred: None,
+        keen,
         united: BTreeMap::new(),
         prices: &prices,
         table,
@@ -58,15 +80,20 @@ pub(super) fn members(
     };
     let mut out = Vec::new();
     let mut cheapest = usize::MAX;
-    let mut level = FIRST;
+    let (mut level, mut polished) = (FIRST, FIRST * POLISH);
     while level <= most {
-        while let Some(exchange) = descent.best(level) {
-            descent.take(exchange);
+        descent.descend(level);
+        if level >= polished {
+            polished = level * POLISH;
+            descent.polish(level);
         }
         let price = descent.price();
         if price < cheapest && largest(&descent.errors) <= level {
             cheapest = price;
-            let forms = tied(table, &descent.forms, &descent.errors, level);
+            let mut tight = descent.clone();
+            tight.tighten();
+            let room = (TIED * level).max(largest(&tight.errors));
+            let forms = tied(table, &tight.forms, &tight.errors, room);
             let error = largest(&errors(lagrangian.dof, table, &forms));
             out.push(Member { model: sparse(candidates, &forms), error });
         }
@@ -76,7 +103,15 @@ pub(super) fn members(
 }
 
 impl Descent<'_> {
-    fn price(&self) -> usize {
+    /// Takes exchanges as long as one is admitted.
+    pub(super) fn descend(&mut self, level: f64) {
+        while let Some(exchange) = self.best(level) {
+            self.take(exchange);
+        }
+    }
+
+    /// The price of the model as it stands.
+    pub(super) fn price(&self) -> usize {
         self.prices.of(self.forms.iter().map(|form| (form.members.as_slice(), form.kept.as_slice())))
     }
 
@@ -96,7 +131,8 @@ impl Descent<'_> {
         self.refresh();
         let now = self.price();
         let slots = (0..self.forms.len()).into_par_iter();
-        let single = slots.filter_map(|s| self.better(&[s], self.simpler[s].as_deref()?, now, level));
+        let single =
+            slots.filter_map(|s| self.better(&[s], self.simpler[s].as_deref()?.as_slice(), now, level));
         let pairs: Vec<_> = self.united.iter().filter(|(_, forms)| !forms.is_empty()).collect();
         let double = pairs.par_iter().filter_map(|((a, b), forms)| self.better(&[*a, *b], forms, now, level));
         let found: Vec<Exchange> = single.chain(double).collect();
@@ -104,15 +140,22 @@ impl Descent<'_> {
     }
 
     fn better(&self, slots: &[usize], forms: &[Form], now: usize, level: f64) -> Option<Exchange> {
-        let old: Vec<&Form> = slots.iter().map(|&s| &self.forms[s]).collect();
+        let old: Vec<&Form> = slots.iter().map(|&s| &*self.forms[s]).collect();
         let burden: f64 = old.iter().map(|form| form.burden).sum();
         let mut best: Option<Exchange> = None;
         for form in forms {
+            if self
+                .barred
+                .as_ref()
+                .is_some_and(|(slot, kept)| slots.first() == Some(slot) && form.kept == *kept)
+            {
+                continue;
+            }
             let price = self.price_with(slots, form);
             if price >= now {
                 continue;
             }
-            let score = (now - price) as f64 / (form.burden - burden).max(1e-9);
+            let score = libm::pow((now - price) as f64, self.keen) / (form.burden - burden).max(1e-9);
             if best.as_ref().is_some_and(|best| score <= best.score) {
                 continue;
             }
@@ -131,8 +174,14 @@ impl Descent<'_> {
         best
     }
 
-    /// The form with the parameters that keep it furthest within what the others leave of `level`.
+    /// As [`Self::fitted_to_room`], where that keeps all errors within `level`.
     fn refitted(&self, old: &[&Form], form: &Form, level: f64) -> Option<Form> {
+        let new = self.fitted_to_room(old, form, level)?;
+        (self.largest_with(old, &new) <= level).then_some(new)
+    }
+
+    /// The form with the parameters that keep it furthest within what the others leave of `level`.
+    pub(super) fn fitted_to_room(&self, old: &[&Form], form: &Form, level: f64) -> Option<Form> {
         let ([before], [(m, _)]) = (old, form.members.as_slice()) else { return None };
         if form.kept.is_empty() || form.kept.len() > REFITTED {
             return None;
@@ -143,9 +192,9 @@ impl Descent<'_> {
                 |&(i, share): &(usize, f64)| (level - self.errors[i][point]) / share + residual[point].abs();
             self.table.shares[*m].iter().map(left).fold(f64::INFINITY, f64::min)
         };
-        let inverse: Vec<f64> = (0..residual.len()).map(|point| 1.0 / room(point).max(1e-9)).collect();
-        let new = Form::fitted(self.table, form.members.clone(), form.kept.clone(), Some(&inverse));
-        (self.largest_with(old, &new) <= level).then_some(new)
+        let floor = LEAST_ROOM * level / self.table.weights[*m];
+        let inverse: Vec<f64> = (0..residual.len()).map(|point| 1.0 / room(point).max(floor)).collect();
+        Some(Form::fitted(self.table, form.members.clone(), form.kept.clone(), Some(&inverse)))
     }
 
     fn largest_with(&self, old: &[&Form], new: &Form) -> f64 {
@@ -173,16 +222,22 @@ impl Descent<'_> {
     }
 
     fn take(&mut self, exchange: Exchange) {
-        let old: Vec<&Form> = exchange.slots.iter().map(|&s| &self.forms[s]).collect();
-        self.errors = exchanged(self.table, &self.errors, &old, &exchange.form);
+        let old: Vec<Arc<Form>> = exchange.slots.iter().map(|&s| self.forms[s].clone()).collect();
+        let forms: Vec<&Form> = old.iter().map(|form| &**form).collect();
+        self.errors = exchanged(self.table, &self.errors, &forms, &exchange.form);
+        let Some(&first) = exchange.slots.first() else { return };
+        self.history[first].push(exchange.slots.iter().copied().zip(old).collect());
         for &s in &exchange.slots {
-            self.forms[s] = Form::nothing();
-            self.simpler[s] = None;
+            self.put(s, Arc::new(Form::nothing()));
         }
-        self.united.retain(|(a, b), _| !exchange.slots.contains(a) && !exchange.slots.contains(b));
-        if let Some(&first) = exchange.slots.first() {
-            self.forms[first] = exchange.form;
-        }
+        self.put(first, Arc::new(exchange.form));
+    }
+
+    /// Puts `form` into a slot; the errors are not touched.
+    pub(super) fn put(&mut self, slot: usize, form: Arc<Form>) {
+        self.forms[slot] = form;
+        self.simpler[slot] = None;
+        self.united.retain(|(a, b), _| *a != slot && *b != slot);
     }
 
     /// Finds the exchanges of the forms that are new.
@@ -198,13 +253,14 @@ impl Descent<'_> {
         let both: Vec<Vec<Form>> =
             keys.par_iter().map(|&(a, b)| united(table, &forms[a], &forms[b])).collect();
         for (s, forms) in new.into_iter().zip(simpler) {
-            self.simpler[s] = Some(forms);
+            self.simpler[s] = Some(Arc::new(forms));
         }
-        self.united.extend(keys.into_iter().zip(both));
+        self.united.extend(keys.into_iter().zip(both.into_iter().map(Arc::new)));
     }
 }
 
-fn errors(dof: usize, table: &Table, forms: &[Form]) -> Vec<Vec<f64>> {
+/// By joint and point.
+pub(super) fn errors(dof: usize, table: &Table, forms: &[Arc<Form>]) -> Vec<Vec<f64>> {
     let mut out = vec![vec![0.0; table.points()]; dof];
     for form in forms {
         for (&(m, _), residual) in form.members.iter().zip(&form.residuals) {
@@ -216,11 +272,11 @@ fn errors(dof: usize, table: &Table, forms: &[Form]) -> Vec<Vec<f64>> {
     out
 }
 
-fn largest(errors: &[Vec<f64>]) -> f64 {
+pub(super) fn largest(errors: &[Vec<f64>]) -> f64 {
     errors.iter().flatten().fold(0.0, |m, &e| m.max(e))
 }
 
-fn sparse(candidates: &[Candidate], forms: &[Form]) -> Sparse {
+fn sparse(candidates: &[Candidate], forms: &[Arc<Form>]) -> Sparse {
     let mut used: Vec<usize> = forms.iter().flat_map(|form| form.kept.iter().copied()).collect();
     used.sort_unstable();
     used.dedup();
@@ -229,6 +285,6 @@ fn sparse(candidates: &[Candidate], forms: &[Form]) -> Sparse {
         members: form.members.clone(),
         terms: form.kept.iter().zip(&form.parameters).filter_map(|(f, &k)| Some((slot(f)?, k))).collect(),
     };
-    let groups = forms.iter().filter(|form| !form.kept.is_empty()).map(group).collect();
+    let groups = forms.iter().filter(|form| !form.kept.is_empty()).map(|form| group(form)).collect();
     Sparse { functions: used.iter().map(|&f| candidates[f].clone()).collect(), groups }
 }

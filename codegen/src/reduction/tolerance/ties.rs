@@ -1,12 +1,14 @@
 //! Equal parameters where they are nearly equal: products with them are computed once.
 
+use std::sync::Arc;
+
 use super::fitting::{Form, Table};
 
 /// How much two parameters may differ to be tied, relatively.
 const NEAR: f64 = 0.1;
 
 /// Ties parameters of the same function in different forms as long as no error exceeds `most`.
-pub(super) fn tied(table: &Table, forms: &[Form], errors: &[Vec<f64>], most: f64) -> Vec<Form> {
+pub(super) fn tied(table: &Table, forms: &[Arc<Form>], errors: &[Vec<f64>], most: f64) -> Vec<Arc<Form>> {
     let mut forms = forms.to_vec();
     let mut errors = errors.to_vec();
     for a in 0..forms.len() {
@@ -35,7 +37,7 @@ pub(super) fn tied(table: &Table, forms: &[Form], errors: &[Vec<f64>], most: f64
                 let after = exchanged(table, &errors, &[&forms[b]], &new);
                 if after.iter().flatten().all(|&e| e <= most) {
                     errors = after;
-                    forms[b] = new;
+                    forms[b] = Arc::new(new);
                 }
             }
         }
