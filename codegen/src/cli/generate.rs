@@ -1,11 +1,13 @@
 //! `gramforge generate`: modules from specifications.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use clap::Args;
 use serde::Serialize;
 
 use super::inspect::exact_in_words;
+use super::progress::Bars;
 use super::{json, show_warnings};
 use crate::config::{Config, Output};
 use crate::emit::{torque_in_words, verdict};
@@ -47,9 +49,7 @@ struct Written<'a> {
 
 impl Generate {
     pub(super) fn run(&self) -> Result<String, Error> {
-        let config =
-            self.specs.iter().fold(Config::new(), |config, spec| config.spec(spec)).out_dir(&self.out);
-        let outputs = if self.check { config.check()? } else { config.generate()? };
+        let outputs = self.outputs()?;
         for output in &outputs {
             show_warnings(&output.generation.warnings);
         }
@@ -57,6 +57,12 @@ impl Generate {
             return json(&outputs.iter().map(written).collect::<Vec<_>>());
         }
         Ok(outputs.iter().map(|output| self.line(output)).collect())
+    }
+
+    fn outputs(&self) -> Result<Vec<Output>, Error> {
+        let config = Config::new().out_dir(&self.out).progress(Arc::new(Bars::new()));
+        let config = self.specs.iter().fold(config, |config, spec| config.spec(spec));
+        if self.check { config.check() } else { config.generate() }
     }
 
     fn line(&self, output: &Output) -> String {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 
+use super::progress::watched;
 use super::{json, show_warnings};
 use crate::bounds::{Bounds, Effort, estimate, factor_bounds};
 use crate::design::Envelope;
@@ -14,6 +15,7 @@ use crate::graph::Operations;
 use crate::load::load;
 use crate::measure::Domain;
 use crate::pipeline::{Generation, dictionary};
+use crate::progress::Stage;
 use crate::spec::{MatrixSpec, ModelSpec};
 
 /// Shows the expansion, the chosen functions, bounds, gains and operation counts of a specification.
@@ -157,9 +159,13 @@ struct GuaranteeView<'a> {
 impl Inspect {
     pub(super) fn run(&self) -> Result<String, Error> {
         let effort = Effort { seek_tube: true, ..Effort::default() };
-        let generation = Generation::with_effort(load(&self.spec)?, &effort)?;
+        let loaded = load(&self.spec)?;
+        let generation = watched(|progress| Generation::with_progress(loaded, &effort, progress))?;
         show_warnings(&generation.warnings);
-        let view = view(&generation);
+        let view = watched(|progress| {
+            let _stage = Stage::new(progress, "comparison of bounds", 1);
+            view(&generation)
+        });
         if self.json { json(&view) } else { Ok(text(&view, &generation)) }
     }
 }

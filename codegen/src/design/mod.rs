@@ -34,6 +34,7 @@ use crate::error::{Error, Faults};
 use crate::lagrangian::Lagrangian;
 use crate::measure::Domain;
 use crate::motion::Motion;
+use crate::progress::{self, Progress};
 use crate::reduction::Regression;
 use crate::spec::{ControlSpec, CoriolisTermSpec, LawSpec, OnFaultSpec};
 
@@ -99,6 +100,8 @@ pub struct Problem<'a> {
     pub regression: Option<&'a Regression>,
     /// Whether to seek the smallest sufficient tube even where no guarantee is required.
     pub seek_tube: bool,
+    /// Who is told how far the search for gains is.
+    pub progress: &'a dyn Progress,
 }
 
 /// Designs the law and judges it.
@@ -117,7 +120,9 @@ pub fn design(problem: &Problem) -> Result<Design, Error> {
     let coulomb = |joint: &crate::arm::Joint| {
         if control.compensate_coulomb { joint.coulomb_friction } else { [0.0; 2] }
     };
+    let told = progress::Stage::new(problem.progress, "guarantee", 1);
     let (gains, judgement) = stage.judge(&tuning)?;
+    drop(told);
     let guarantee::Judgement { envelope, delta_c, k_star, delta_c1, guarantee, .. } = judgement;
     let design = Design {
         law: control.law,

@@ -15,6 +15,7 @@ use crate::graph::Graph;
 use crate::lagrangian::Lagrangian;
 use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
+use crate::progress::{Progress, Stage};
 use crate::reduction::{self, Problem, Reduced, extremes};
 
 /// Points of the domain at which the family of models is fitted, besides corners.
@@ -75,6 +76,7 @@ pub struct Choice {
 /// Cheap means few multiplications and additions of the code, with every sine-cosine pair as
 /// [`crate::graph::TRIG_PAIR`]. Neither the family nor its certificates depend on the fraction, and the first member in
 /// ascending price that is certified is taken, so that a larger fraction never costs more.
+#[allow(clippy::too_many_arguments, reason = "what a model is chosen by, and who hears of it")]
 pub fn cheapest(
     lagrangian: &Lagrangian,
     domain: &Domain,
@@ -83,6 +85,7 @@ pub fn cheapest(
     scale: Option<&Scale>,
     fraction: f64,
     exact: (Form, &Graph),
+    progress: &dyn Progress,
 ) -> Choice {
     let unreduced = || Choice { reduced: reduction::exact(lagrangian), form: exact.0, code: exact.1.clone() };
     let Some(scale) = scale.filter(|scale| scale.peak.iter().all(|&peak| peak > 0.0)) else {
@@ -117,9 +120,11 @@ pub fn cheapest(
     choices.sort_by_key(|choice| choice.code.operations().price());
     let limits: Vec<f64> = scale.peak.iter().map(|peak| fraction * peak).collect();
     let mut proofs = Proofs::default();
+    let stage = Stage::new(progress, "models within the tolerance", choices.len());
     choices
         .into_iter()
         .find(|choice| {
+            let _part = stage.part();
             let reduced = &choice.reduced;
             if !reduced.is_finite()
                 || search::largest(lagrangian, reduced, &shares, domain, probes) * MARGIN > fraction
