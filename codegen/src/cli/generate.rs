@@ -20,7 +20,7 @@ pub(super) struct Generate {
     /// The specification files.
     #[arg(required = true)]
     specs: Vec<PathBuf>,
-    /// The folder that the modules go to.
+    /// The folder that the modules go to; made where it is missing.
     #[arg(long)]
     out: PathBuf,
     /// Write nothing; exit with 1 where a file differs from what its specification gives.

@@ -15,7 +15,7 @@ use crate::reproduce::{claims, run};
 /// Runs the report's example under all its laws, draws its figures 2 to 6 and judges its claims.
 #[derive(Debug, Args)]
 pub(super) struct Reproduce {
-    /// Folder for the figures and the table of claims.
+    /// Folder for the figures and the table of claims; made where it is missing.
     #[arg(long, default_value = "target/gramforge/report")]
     out: PathBuf,
     /// Print JSON.

@@ -19,7 +19,7 @@ use crate::spec::LawSpec;
 pub(super) struct Simulate {
     /// The specification file; it needs `motion` and `control`.
     spec: PathBuf,
-    /// Also draw errors, torques and V over time into this SVG file.
+    /// Also draw errors, torques and V over time into this SVG file; folders that are missing are made.
     #[arg(long)]
     plot: Option<PathBuf>,
     /// Print JSON.
