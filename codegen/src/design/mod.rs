@@ -3,6 +3,7 @@
 mod adaptation;
 mod family;
 mod feedforward;
+mod form;
 mod gains;
 mod guarantee;
 mod inertia;
@@ -21,10 +22,11 @@ use std::path::Path;
 
 pub use adaptation::Adaptation;
 pub use family::{least_eigenvalue, outweighs, smallest_multiple};
+pub use form::InertiaBounds;
 pub use gains::Gains;
 pub use guarantee::Guarantee;
 pub use inertia::{Cell, Extremes, Inertia};
-pub use reach::{Envelope, InertiaBounds};
+pub use reach::Envelope;
 pub use tuning::Tuning;
 
 use crate::arm::{Arm, Uncertainty};
@@ -199,7 +201,7 @@ impl<'a> Stage<'a> {
         facts: Option<&InertiaBounds>,
     ) -> Result<(Gains, guarantee::Judgement), Error> {
         let gains = Gains::new(tuning);
-        let form = if gains.is_finite() { reach::Form::new(&gains) } else { None };
+        let form = if gains.is_finite() { form::Form::new(&gains) } else { None };
         let form = form.ok_or_else(|| {
             let problem = "gives gains that overflow, or are too far apart to compute with";
             Error::input(self.problem.file, "control", problem, "write W, Pqq and Omega in SI units")
