@@ -1,12 +1,14 @@
 //! The builder for `build.rs`, and the engine of the command.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::bounds::Effort;
 use crate::error::{Error, Faults, Stale};
-use crate::load::load;
+use crate::load::{Loaded, load};
 use crate::output::{is_current, write_if_changed};
 use crate::pipeline::Generation;
+use crate::progress::{Progress, Silent, Titled};
 
 /// Generates modules from specifications.
 ///
@@ -27,6 +29,7 @@ pub struct Config {
     specs: Vec<PathBuf>,
     out_dir: Option<PathBuf>,
     effort: Effort,
+    progress: Option<Arc<dyn Progress>>,
 }
 
 /// One generated module.
@@ -66,6 +69,13 @@ impl Config {
     #[must_use]
     pub fn effort(mut self, effort: Effort) -> Self {
         self.effort = effort;
+        self
+    }
+
+    /// Sets who is told how far the work is; nobody by default.
+    #[must_use]
+    pub fn progress(mut self, progress: Arc<dyn Progress>) -> Self {
+        self.progress = Some(progress);
         self
     }
 
@@ -130,7 +140,7 @@ impl Config {
         let mut faults = Vec::new();
         let mut outputs: Vec<Output> = Vec::new();
         for spec in &self.specs {
-            let generation = load(spec).and_then(|loaded| Generation::with_effort(loaded, &self.effort));
+            let generation = load(spec).and_then(|loaded| self.generation(loaded));
             let built = generation.and_then(|generation| {
                 let path = out_dir.join(format!("{}.rs", generation.loaded.spec.name));
                 Ok(Output { path, text: generation.module()?, written: false, generation })
@@ -145,6 +155,15 @@ impl Config {
             }
         }
         if faults.is_empty() { Ok(outputs) } else { Err(Error::Input(faults)) }
+    }
+
+    fn generation(&self, loaded: Loaded) -> Result<Generation, Error> {
+        let progress = self.progress.as_deref().unwrap_or(&Silent);
+        if self.specs.len() < 2 {
+            return Generation::with_progress(loaded, &self.effort, progress);
+        }
+        let titled = Titled { title: loaded.spec.name.clone(), progress };
+        Generation::with_progress(loaded, &self.effort, &titled)
     }
 
     fn folder(&self) -> Result<PathBuf, Error> {

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::arm::{Arm, Built, JointKind, Uncertainty, indefinite, indefinite_among};
 use crate::body::{self, Form, Regressor};
 use crate::bounds::{
-    Bounds, Certificate, Effort, Torque, certified, reach, recursion, torque_error, with_sines,
+    Bounds, Certificate, Effort, Torque, certified_telling, reach, recursion, torque_error, with_sines,
 };
 use crate::check::{examine, vector};
 use crate::design::{Design, Problem, checked, design};
@@ -17,6 +17,7 @@ use crate::lagrangian::{Lagrangian, expand_family};
 use crate::load::{Loaded, load, spec_hash};
 use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
+use crate::progress::{Progress, Silent, Stage};
 use crate::reduction::{self, Dictionary, Reduced, Regression};
 use crate::sines::Sines;
 use crate::spec::{DictionarySpec, LawSpec, MeasureSpec, ModelSpec, RefitSpec, Spec};
@@ -99,6 +100,14 @@ impl Generation {
     /// # Errors
     /// As [`Generation::from_file`].
     pub fn with_effort(loaded: Loaded, effort: &Effort) -> Result<Self, Error> {
+        Self::with_progress(loaded, effort, &Silent)
+    }
+
+    /// The same, telling `progress` how far it is.
+    ///
+    /// # Errors
+    /// As [`Generation::from_file`].
+    pub fn with_progress(loaded: Loaded, effort: &Effort, progress: &dyn Progress) -> Result<Self, Error> {
         let mut faults = Faults::of(&loaded.path);
         let (built, motion) = examine(&loaded, &mut faults);
         let Some(Built { arm, uncertainty, warnings }) = built else { return Err(faults.into_error()) };
@@ -107,7 +116,9 @@ impl Generation {
             state.report(&mut faults);
             return Err(faults.into_error());
         }
+        let stage = Stage::new(progress, "expansion", 1);
         let lagrangian = expand_family(&arm, &uncertainty);
+        drop(stage);
         check_count(spec, &lagrangian, &mut faults);
         if !faults.is_empty() {
             return Err(faults.into_error());
@@ -117,6 +128,7 @@ impl Generation {
         let sines = Sines::new(&spec.emit.trig);
         check_angles(&sines, &reach(&domain, motion.as_ref()), &arm, &mut faults);
         faults.finish(())?;
+        let stage = Stage::new(progress, "measure", 1);
         let measure = Measure::new(&domain, motion.as_ref(), &arm);
         let refused = |report: &dyn Fn(&mut Faults)| {
             let mut faults = Faults::of(&loaded.path);
@@ -137,13 +149,18 @@ impl Generation {
                 return refused(&|faults| state.report_member(&uncertainty, &u, faults));
             }
         }
+        drop(stage);
         let learns = spec.control.as_ref().filter(|control| control.law == LawSpec::Adaptive);
+        let stage = Stage::new(progress, "reduction", 1);
         let points = match spec.refit {
             RefitSpec::Minimax => reduction::extremes(&measure, &domain, motion.as_ref()),
             RefitSpec::LeastSquares => measure.points.clone(),
         };
         let scale = Scale::new(&arm, &domain, motion.as_ref());
-        let exact = body::exact(&arm, &lagrangian);
+        let exact = {
+            let _stage = Stage::new(progress, "exact code", 1);
+            body::exact(&arm, &lagrangian)
+        };
         let Model { reduced, form, mut code } = {
             let ask = Ask {
                 spec,
@@ -153,6 +170,7 @@ impl Generation {
                 motion: motion.as_ref(),
                 measure: &measure,
                 points: &points,
+                progress,
             };
             ask.model(scale.as_ref(), &exact)
         };
@@ -167,23 +185,26 @@ impl Generation {
             Some((regression, reestimated)) => (Some(regression), reestimated),
             None => (None, reduced),
         };
+        drop(stage);
         let effort_here = match spec.model.tolerance() {
             Some(_) => {
                 Effort { boxes: effort.boxes.min(BOXES), starts: effort.starts.min(STARTS), ..*effort }
             }
             None => *effort,
         };
+        let certificates =
+            certified_telling(&lagrangian, &reduced, &domain, motion.as_ref(), &effort_here, progress);
         let (certificates, mut bounds) = if form == Form::Recursive && !sines.rounds() {
             // What coarse sines do is known of the plain recursion alone.
             code = body::plain(&arm);
-            recursive_bounds(&arm, &lagrangian, &reduced, &domain, motion.as_ref(), &effort_here, &sines)
+            recursive_bounds(&arm, &lagrangian, &reduced, certificates, &domain, motion.as_ref(), &sines)
         } else {
-            let certificates = certified(&lagrangian, &reduced, &domain, motion.as_ref(), &effort_here);
             let certificates =
                 with_sines(certificates, &lagrangian, &reduced, &domain, motion.as_ref(), &sines);
             let bounds = Bounds::of(&lagrangian, &certificates);
             (certificates, bounds)
         };
+        let stage = Stage::new(progress, "torque error", 1);
         let torque = scale.map(|Scale { rates, peak }| {
             if form == Form::Recursive {
                 return Torque { error: bounds.torque(&rates), peak };
@@ -202,6 +223,7 @@ impl Generation {
             }
             Torque { error, peak }
         });
+        drop(stage);
         if !uncertainty.viscous.is_empty() {
             bounds.b.clone_from(&uncertainty.viscous);
         }
@@ -232,6 +254,7 @@ impl Generation {
                     uncertainty: &uncertainty,
                     regression: regression.as_ref(),
                     seek_tube: effort.seek_tube,
+                    progress,
                 })
             })
             .transpose()?;
@@ -302,6 +325,7 @@ struct Ask<'a> {
     motion: Option<&'a Motion>,
     measure: &'a Measure,
     points: &'a [Vec<f64>],
+    progress: &'a dyn Progress,
 }
 
 impl Ask<'_> {
@@ -348,25 +372,26 @@ impl Ask<'_> {
         let fraction = self.spec.model.tolerance().unwrap_or_default();
         let known = self.lagrangian.at_nominal();
         let (form, code) = exact;
-        let choice = cheapest(&known, self.domain, self.motion, self.measure, scale, fraction, (*form, code));
+        let (exact, progress) = ((*form, code), self.progress);
+        let choice =
+            cheapest(&known, self.domain, self.motion, self.measure, scale, fraction, exact, progress);
         Model { reduced: choice.reduced, form: choice.form, code: choice.code }
     }
 }
 
 /// Bounds on the plain recursion with sines off by more than rounding: what they do to it, and what uncertain parameters
-/// do.
+/// do, which is what the `certificates` given say.
 fn recursive_bounds(
     arm: &Arm,
     lagrangian: &Lagrangian,
     reduced: &Reduced,
+    certificates: Vec<Certificate>,
     domain: &Domain,
     motion: Option<&Motion>,
-    effort: &Effort,
     sines: &Sines,
 ) -> (Vec<Certificate>, Bounds) {
     // Only what a law learns is in expanded form.
     let learnt = Reduced { combinations: vec![Vec::new(); reduced.combinations.len()], ..reduced.clone() };
-    let certificates = certified(lagrangian, reduced, domain, motion, effort);
     let certificates = with_sines(certificates, lagrangian, &learnt, domain, motion, sines);
     let own = recursion(arm, &reach(domain, motion), sines.error);
     let bounds = Bounds::of(lagrangian, &certificates).plus(&own);

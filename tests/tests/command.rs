@@ -4,6 +4,8 @@
 mod evaluate;
 #[path = "command/generate.rs"]
 mod generate;
+#[path = "command/progress.rs"]
+mod progress;
 #[path = "command/show.rs"]
 mod show;
 

@@ -1,11 +1,12 @@
 //! The report's section 4: which of its claims the runs bear out.
 
+use gramforge::progress::Silent;
 use gramforge::report::{Figures, figures};
 use gramforge::reproduce::{claims, run};
 
 #[test]
 fn the_reports_claims_hold_where_they_can() {
-    let cases = run().unwrap();
+    let cases = run(&Silent).unwrap();
     let claims = claims(&cases);
     for claim in &claims {
         println!(

@@ -41,6 +41,7 @@ use rayon::prelude::*;
 use crate::lagrangian::{Coefficient, Combination, Entry, Lagrangian};
 use crate::measure::Domain;
 use crate::motion::Motion;
+use crate::progress::{Progress, Silent, Stage};
 use crate::reduction::{Reduced, plus};
 use polynomial::Polynomial;
 use region::Region;
@@ -112,6 +113,18 @@ pub fn certified(
     certified_beside(lagrangian, reduced, domain, motion, effort, |_| None)
 }
 
+/// As [`certified`], telling `progress` of every coefficient done.
+pub fn certified_telling(
+    lagrangian: &Lagrangian,
+    reduced: &Reduced,
+    domain: &Domain,
+    motion: Option<&Motion>,
+    effort: &Effort,
+    progress: &dyn Progress,
+) -> Vec<Certificate> {
+    certify(lagrangian, reduced, domain, motion, effort, |_| None, progress)
+}
+
 /// As [`certified`], where some coefficients' certificates are known already.
 pub fn certified_beside(
     lagrangian: &Lagrangian,
@@ -121,14 +134,30 @@ pub fn certified_beside(
     effort: &Effort,
     known: impl Fn(usize) -> Option<Certificate> + Sync,
 ) -> Vec<Certificate> {
+    certify(lagrangian, reduced, domain, motion, effort, known, &Silent)
+}
+
+fn certify(
+    lagrangian: &Lagrangian,
+    reduced: &Reduced,
+    domain: &Domain,
+    motion: Option<&Motion>,
+    effort: &Effort,
+    known: impl Fn(usize) -> Option<Certificate> + Sync,
+    progress: &dyn Progress,
+) -> Vec<Certificate> {
     let reach = reach(domain, motion);
-    residuals(lagrangian, reduced, domain, motion)
+    let residuals = residuals(lagrangian, reduced, domain, motion);
+    let simplified = residuals.iter().filter(|residuals| !residuals.is_empty()).count();
+    let stage = Stage::new(progress, "certification of coefficients", simplified);
+    residuals
         .into_par_iter()
         .enumerate()
         .map(|(m, residuals)| {
             if residuals.is_empty() {
                 return Certificate::default();
             }
+            let _part = stage.part();
             if let Some(certificate) = known(m) {
                 return certificate;
             }

@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
+use super::progress::watched;
+use crate::bounds::Effort;
 use crate::error::Error;
 use crate::load::{Loaded, parse};
 use crate::output::write_if_changed;
 use crate::pipeline::Generation;
+use crate::progress::Stage;
 use crate::report::{bounds_table, claims, claims_table, metrics_table, operations_table, plot};
 use crate::simulate::{Scenario, simulate};
 use crate::spec::VectorSpec;
@@ -20,10 +23,14 @@ const BOUNDARY_LAYER: f64 = 0.05;
 pub(super) fn run() -> Result<String, Error> {
     let folder = Path::new(FOLDER);
     let loaded = parse(SPEC, Path::new("arm3.json"))?;
-    let sign = Generation::new(loaded.clone())?;
-    let layer = Generation::new(with_boundary_layer(loaded))?;
+    let (sign, without, with) = watched(|progress| {
+        let generated = |loaded| Generation::with_progress(loaded, &Effort::default(), progress);
+        let (sign, layer) = (generated(loaded.clone())?, generated(with_boundary_layer(loaded))?);
+        let _stage = Stage::new(progress, "simulation", 1);
+        let (without, with) = (simulate(&Scenario::of(&sign)?)?, simulate(&Scenario::of(&layer)?)?);
+        Ok::<_, Error>((sign, without, with))
+    })?;
     let joints = &sign.arm.joints;
-    let (without, with) = (simulate(&Scenario::of(&sign)?)?, simulate(&Scenario::of(&layer)?)?);
 
     let module = folder.join("arm3.rs");
     let picture = folder.join("arm3.svg");

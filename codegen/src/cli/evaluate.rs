@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use serde::{Deserialize, Serialize};
 
+use super::progress::generated;
 use super::{json, show_warnings};
 use crate::arm::Arm;
 use crate::error::{Error, Faults};
@@ -65,7 +66,7 @@ impl Evaluation {
 
 impl Evaluate {
     pub(super) fn run(&self) -> Result<String, Error> {
-        let generation = Generation::from_file(&self.spec)?;
+        let generation = generated(&self.spec)?;
         show_warnings(&generation.warnings);
         let states = read(&self.states, generation.arm.dof())?;
         let evaluations: Vec<Evaluation> =

@@ -1,11 +1,13 @@
 //! `gramforge generate`: modules from specifications.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use clap::Args;
 use serde::Serialize;
 
 use super::inspect::exact_in_words;
+use super::progress::Bars;
 use super::{json, show_warnings};
 use crate::config::{Config, Output};
 use crate::emit::{torque_in_words, verdict};
@@ -18,7 +20,7 @@ pub(super) struct Generate {
     /// The specification files.
     #[arg(required = true)]
     specs: Vec<PathBuf>,
-    /// The folder that the modules go to.
+    /// The folder that the modules go to; made where it is missing.
     #[arg(long)]
     out: PathBuf,
     /// Write nothing; exit with 1 where a file differs from what its specification gives.
@@ -47,9 +49,7 @@ struct Written<'a> {
 
 impl Generate {
     pub(super) fn run(&self) -> Result<String, Error> {
-        let config =
-            self.specs.iter().fold(Config::new(), |config, spec| config.spec(spec)).out_dir(&self.out);
-        let outputs = if self.check { config.check()? } else { config.generate()? };
+        let outputs = self.outputs()?;
         for output in &outputs {
             show_warnings(&output.generation.warnings);
         }
@@ -57,6 +57,12 @@ impl Generate {
             return json(&outputs.iter().map(written).collect::<Vec<_>>());
         }
         Ok(outputs.iter().map(|output| self.line(output)).collect())
+    }
+
+    fn outputs(&self) -> Result<Vec<Output>, Error> {
+        let config = Config::new().out_dir(&self.out).progress(Arc::new(Bars::new()));
+        let config = self.specs.iter().fold(config, |config, spec| config.spec(spec));
+        if self.check { config.check() } else { config.generate() }
     }
 
     fn line(&self, output: &Output) -> String {

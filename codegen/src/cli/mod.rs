@@ -4,6 +4,7 @@ mod demo;
 mod evaluate;
 mod generate;
 mod inspect;
+mod progress;
 mod reproduce;
 mod simulate;
 
@@ -17,7 +18,8 @@ use crate::error::Error;
 
 /// Generates reduced robot dynamics and tracking controllers as flat, allocation-free no_std Rust.
 ///
-/// Without a subcommand: a demonstration on a three-link arm.
+/// Without a subcommand: a demonstration on a three-link arm. What lasts more than a second shows its stage on standard
+/// error, if that is a terminal.
 /// Exit codes: 0 done, 1 check failed, 2 bad input, 3 internal error.
 #[derive(Debug, Parser)]
 #[command(name = "gramforge", version)]

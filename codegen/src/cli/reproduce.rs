@@ -6,6 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::json;
+use super::progress::watched;
 use crate::error::Error;
 use crate::output::write_if_changed;
 use crate::report::{Claim, Figures, claims_table, figures};
@@ -14,7 +15,7 @@ use crate::reproduce::{claims, run};
 /// Runs the report's example under all its laws, draws its figures 2 to 6 and judges its claims.
 #[derive(Debug, Args)]
 pub(super) struct Reproduce {
-    /// Folder for the figures and the table of claims.
+    /// Folder for the figures and the table of claims; made where it is missing.
     #[arg(long, default_value = "target/gramforge/report")]
     out: PathBuf,
     /// Print JSON.
@@ -30,7 +31,7 @@ struct Summary<'a> {
 
 impl Reproduce {
     pub(super) fn run(&self) -> Result<String, Error> {
-        let cases = run()?;
+        let cases = watched(run)?;
         let motion = cases.nominal.motion.as_ref();
         let motion =
             motion.ok_or_else(|| Error::Internal("the built-in example has no motion".to_string()))?;

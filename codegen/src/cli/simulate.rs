@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 
+use super::progress::{generated, watched};
 use super::{json, show_warnings};
 use crate::error::Error;
 use crate::output::write_if_changed;
-use crate::pipeline::Generation;
+use crate::progress::Stage;
 use crate::report::{metrics_table, plot};
 use crate::simulate::{Metrics, Scenario, simulate};
 use crate::spec::LawSpec;
@@ -18,7 +19,7 @@ use crate::spec::LawSpec;
 pub(super) struct Simulate {
     /// The specification file; it needs `motion` and `control`.
     spec: PathBuf,
-    /// Also draw errors, torques and V over time into this SVG file.
+    /// Also draw errors, torques and V over time into this SVG file; folders that are missing are made.
     #[arg(long)]
     plot: Option<PathBuf>,
     /// Print JSON.
@@ -36,9 +37,13 @@ struct Summary<'a> {
 
 impl Simulate {
     pub(super) fn run(&self) -> Result<String, Error> {
-        let generation = Generation::from_file(&self.spec)?;
+        let generation = generated(&self.spec)?;
         show_warnings(&generation.warnings);
-        let comparison = simulate(&Scenario::of(&generation)?)?;
+        let scenario = Scenario::of(&generation)?;
+        let comparison = watched(|progress| {
+            let _stage = Stage::new(progress, "simulation", 1);
+            simulate(&scenario)
+        })?;
         let joints = &generation.arm.joints;
         if let Some(path) = &self.plot {
             write_if_changed(path, &plot(&comparison, joints)?)?;

@@ -2,8 +2,9 @@
 
 use super::adaptation::{Adaptation, Learning, regression};
 use super::feedforward::{beyond_torque_limits, lag};
+use super::form::{Form, InertiaBounds, fastest, inertia_bounds, initial_level, total};
 use super::inertia::Inertia;
-use super::reach::{Course, Envelope, InertiaBounds, fastest, inertia_bounds, initial_level, total};
+use super::reach::{Course, Envelope};
 use super::region::{cells, outside, reach, start, width};
 use super::{Problem, family};
 use crate::error::Error;
@@ -56,7 +57,7 @@ pub(super) struct Judgement {
 pub(super) struct Parts<'a> {
     pub(super) problem: &'a Problem<'a>,
     pub(super) gains: &'a super::Gains,
-    pub(super) form: super::reach::Form,
+    pub(super) form: Form,
     pub(super) disturbance: &'a [f64],
     pub(super) tuning: &'a super::Tuning,
     /// Initial position and velocity error.

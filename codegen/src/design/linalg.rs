@@ -12,6 +12,11 @@ pub(crate) fn rows(m: &DMatrix<f64>) -> Vec<Vec<f64>> {
     (0..m.nrows()).map(|i| (0..m.ncols()).map(|j| m[(i, j)]).collect()).collect()
 }
 
+/// Σ |a_i| b_i.
+pub(crate) fn weighed(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a.abs() * b).sum()
+}
+
 /// Eigenvalues of a symmetric matrix, ascending; NaN where an entry is not finite.
 pub(crate) fn symmetric_eigenvalues(m: &[Vec<f64>]) -> Vec<f64> {
     // The iteration need not end on NaN.

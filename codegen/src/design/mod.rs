@@ -3,6 +3,7 @@
 mod adaptation;
 mod family;
 mod feedforward;
+mod form;
 mod gains;
 mod guarantee;
 mod inertia;
@@ -21,10 +22,11 @@ use std::path::Path;
 
 pub use adaptation::Adaptation;
 pub use family::{least_eigenvalue, outweighs, smallest_multiple};
+pub use form::InertiaBounds;
 pub use gains::Gains;
 pub use guarantee::Guarantee;
 pub use inertia::{Cell, Extremes, Inertia};
-pub use reach::{Envelope, InertiaBounds};
+pub use reach::Envelope;
 pub use tuning::Tuning;
 
 use crate::arm::{Arm, Uncertainty};
@@ -34,6 +36,7 @@ use crate::error::{Error, Faults};
 use crate::lagrangian::Lagrangian;
 use crate::measure::Domain;
 use crate::motion::Motion;
+use crate::progress::{self, Progress};
 use crate::reduction::Regression;
 use crate::spec::{ControlSpec, CoriolisTermSpec, LawSpec, OnFaultSpec};
 
@@ -99,6 +102,8 @@ pub struct Problem<'a> {
     pub regression: Option<&'a Regression>,
     /// Whether to seek the smallest sufficient tube even where no guarantee is required.
     pub seek_tube: bool,
+    /// Who is told how far the search for gains is.
+    pub progress: &'a dyn Progress,
 }
 
 /// Designs the law and judges it.
@@ -117,7 +122,9 @@ pub fn design(problem: &Problem) -> Result<Design, Error> {
     let coulomb = |joint: &crate::arm::Joint| {
         if control.compensate_coulomb { joint.coulomb_friction } else { [0.0; 2] }
     };
+    let told = progress::Stage::new(problem.progress, "guarantee", 1);
     let (gains, judgement) = stage.judge(&tuning)?;
+    drop(told);
     let guarantee::Judgement { envelope, delta_c, k_star, delta_c1, guarantee, .. } = judgement;
     let design = Design {
         law: control.law,
@@ -194,7 +201,7 @@ impl<'a> Stage<'a> {
         facts: Option<&InertiaBounds>,
     ) -> Result<(Gains, guarantee::Judgement), Error> {
         let gains = Gains::new(tuning);
-        let form = if gains.is_finite() { reach::Form::new(&gains) } else { None };
+        let form = if gains.is_finite() { form::Form::new(&gains) } else { None };
         let form = form.ok_or_else(|| {
             let problem = "gives gains that overflow, or are too far apart to compute with";
             Error::input(self.problem.file, "control", problem, "write W, Pqq and Omega in SI units")

@@ -8,9 +8,10 @@
 
 use nalgebra::DMatrix;
 
+use super::form::{BUDGET, TOLERANCE};
 use super::inertia::{Cell, Inertia};
-use super::linalg::dense;
-use super::reach::{BUDGET, Course, Envelope, Load, TOLERANCE, weighed};
+use super::linalg::{dense, weighed};
+use super::reach::{Course, Envelope, Load};
 use crate::error::Error;
 
 /// Rounds in which the errors shrink, and the relative gain below which a round was the last.

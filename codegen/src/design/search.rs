@@ -4,9 +4,9 @@
 //! bears less of it than the base: so joint i gets κ/(D⁻¹)_ii, with its least inertia over the domain. What is sought
 //! are κ and three shares of it; every candidate is judged as given gains are.
 
+use super::form::{BUDGET, TOLERANCE, fastest};
 use super::guarantee::Judgement;
 use super::inertia::Inertia;
-use super::reach::{BUDGET, TOLERANCE, fastest};
 use super::region::{cells, reach, width};
 use super::{Stage, Tuning};
 use crate::error::Error;

@@ -6,6 +6,7 @@ use super::search::{Candidate, Scene, Target};
 use super::{Stage, Tuning, checked};
 use crate::check::vector;
 use crate::error::{Error, Faults};
+use crate::progress;
 use crate::spec::{DesignSpec, VectorSpec};
 
 /// Periods that are tried, longest first, where none is asked for, s.
@@ -21,7 +22,7 @@ const STALLED: f64 = 0.97;
 /// # Errors
 /// [`Error::Input`] with what cannot be met, and by how much.
 pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
-    let super::Problem { file, arm, domain, motion, uncertainty, .. } = *stage.problem;
+    let super::Problem { file, arm, domain, motion, uncertainty, progress, .. } = *stage.problem;
     let n = arm.dof();
     let tube = |tube| checked("control.design.tube", vector(tube, n));
     let own = room(domain, motion, arm);
@@ -30,6 +31,8 @@ pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
         asked.as_ref().map_or(own.clone(), |asked| asked.iter().zip(&own).map(|(a, b)| a.min(*b)).collect());
     let target = Target { time: wish.convergence_time, room };
     let mut faults = Faults::of(file);
+    let periods = wish.period.map_or(PERIODS.to_vec(), |period| vec![period]);
+    let told = progress::Stage::new(progress, "search for gains", periods.len());
     let scene = Scene::new(stage, &target);
     let mut hopeless = outside(domain, motion, arm, &vec![0.0; n]);
     hopeless.extend(motion.map_or(Vec::new(), |motion| beyond_torque_limits(arm, uncertainty, motion)));
@@ -57,9 +60,9 @@ pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
         );
         return Err(faults.into_error());
     }
-    let periods = wish.period.map_or(PERIODS.to_vec(), |period| vec![period]);
     let mut nearest: Option<Candidate> = None;
     for &period in &periods {
+        let _part = told.part();
         let Some(candidate) = scene.find(period, wish.period.is_none())? else { continue };
         if candidate.holds {
             return Ok(candidate.tuning);
@@ -69,7 +72,10 @@ pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
         }
     }
     let shorter = match wish.period {
-        Some(period) => longest(&scene, period)?,
+        Some(period) => {
+            let _told = progress::Stage::new(progress, "longest period", 1);
+            longest(&scene, period)?
+        }
         None => None,
     };
     if let (Some(period), Some(longest)) = (wish.period, shorter) {

@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::error::Error;
 use crate::load::{Loaded, parse};
 use crate::pipeline::Generation;
+use crate::progress::{Progress, Stage};
 use crate::simulate::{Comparison, Scenario, simulate, simulate_on};
 use crate::spec::{
     AdaptationSpec, ControlSpec, LawSpec, LinkUncertaintySpec, MatrixSpec, ParametersSpec, UncertaintySpec,
@@ -19,6 +20,8 @@ const LAYERS: [f64; 2] = [0.05, 0.2];
 /// The report's control period and a shorter one, s: with the longer, the robust law's sign function drives the loop
 /// into an oscillation as wide as its gain, which is no property of the law.
 const PERIODS: [f64; 2] = [0.01, 0.002];
+/// Specifications that are generated and simulated: three at the nominal load, five of [`LoadedCases`] with each period.
+const CASES: usize = 3 + 5 * PERIODS.len();
 
 /// All runs; each comparison has law (16) with the exact model of the arm as specified beside the law under test.
 #[derive(Clone, Debug)]
@@ -52,21 +55,26 @@ pub struct LoadedCases {
     pub adaptive_layered: [Comparison; 2],
 }
 
-/// Runs every case.
+/// Runs every case, and tells `progress` of each.
 ///
 /// # Errors
 /// [`Error::Internal`] where the built-in specification does not pass its own checks.
-pub fn run() -> Result<Cases, Error> {
+pub fn run(progress: &dyn Progress) -> Result<Cases, Error> {
+    let stage = Stage::new(progress, "cases of the report", CASES);
     let nominal = generation(|_| {})?;
     let alone = |edit: &dyn Fn(&mut ControlSpec)| -> Result<Comparison, Error> {
+        let _part = stage.part();
         simulate(&Scenario::of(&generation(edit)?)?)
     };
     Ok(Cases {
-        simplified: simulate(&Scenario::of(&nominal)?)?,
+        simplified: {
+            let _part = stage.part();
+            simulate(&Scenario::of(&nominal)?)?
+        },
         nominal,
         layered: alone(&|control| layer(control, LAYERS[0]))?,
         printed: alone(&|control| control.pqq = Some(MatrixSpec::Scalar(4.0)))?,
-        loaded: [loaded(PERIODS[0])?, loaded(PERIODS[1])?],
+        loaded: [loaded(PERIODS[0], &stage)?, loaded(PERIODS[1], &stage)?],
     })
 }
 
@@ -79,8 +87,9 @@ fn learn(control: &mut ControlSpec, parameters: ParametersSpec) {
     control.adaptation = Some(AdaptationSpec { parameters, ..AdaptationSpec::default() });
 }
 
-fn loaded(period: f64) -> Result<LoadedCases, Error> {
+fn loaded(period: f64, stage: &Stage) -> Result<LoadedCases, Error> {
     let both = |edit: &dyn Fn(&mut ControlSpec)| -> Result<[Comparison; 2], Error> {
+        let _part = stage.part();
         let generation = generation(|control| {
             control.uncertainty = Some(load());
             control.period = Some(period);

@@ -99,6 +99,7 @@ impl Example {
             uncertainty: &Uncertainty::default(),
             regression: None,
             seek_tube: false,
+            progress: &crate::progress::Silent,
         })
         .unwrap();
         let initial = control.initial_error;

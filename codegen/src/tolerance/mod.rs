@@ -13,6 +13,7 @@ use crate::graph::Graph;
 use crate::lagrangian::{Combination, Lagrangian, evaluate};
 use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
+use crate::progress::{Progress, Stage};
 use crate::reduction::{self, Problem, Reduced, extremes};
 use crate::spread::{Spread, corner, in_box};
 
@@ -73,6 +74,7 @@ pub struct Choice {
 /// Cheap means few multiplications and additions of the code, with every sine-cosine pair as
 /// [`crate::graph::TRIG_PAIR`]. Neither the family nor its certificates depend on the fraction, and the first member in
 /// ascending price that is certified is taken, so that a larger fraction never costs more.
+#[allow(clippy::too_many_arguments, reason = "what a model is chosen by, and who hears of it")]
 pub fn cheapest(
     lagrangian: &Lagrangian,
     domain: &Domain,
@@ -81,6 +83,7 @@ pub fn cheapest(
     scale: Option<&Scale>,
     fraction: f64,
     exact: (Form, &Graph),
+    progress: &dyn Progress,
 ) -> Choice {
     let unreduced = || Choice { reduced: reduction::exact(lagrangian), form: exact.0, code: exact.1.clone() };
     let Some(scale) = scale.filter(|scale| scale.peak.iter().all(|&peak| peak > 0.0)) else {
@@ -113,9 +116,11 @@ pub fn cheapest(
     choices.sort_by_key(|choice| choice.code.operations().price());
     let limits: Vec<f64> = scale.peak.iter().map(|peak| fraction * peak).collect();
     let mut proofs = Proofs::default();
+    let stage = Stage::new(progress, "models within the tolerance", choices.len());
     choices
         .into_iter()
         .find(|choice| {
+            let _part = stage.part();
             let reduced = &choice.reduced;
             if !reduced.is_finite() || seen(lagrangian, reduced, &shares, &everywhere) > fraction {
                 return false;

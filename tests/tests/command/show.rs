@@ -105,7 +105,8 @@ fn simulate_needs_a_law_and_draws_a_plot() {
 #[test]
 fn the_demonstration_runs_where_it_may_write() {
     let folder = tempfile::tempdir().expect("a folder");
-    let shown = finish(gramforge().current_dir(&folder)).expect(0).stdout;
-    assert!(shown.contains("The report's claims"), "{shown}");
+    let shown = finish(gramforge().current_dir(&folder)).expect(0);
+    assert!(shown.stdout.contains("The report's claims"), "{shown:#?}");
+    assert_eq!(shown.stderr, "");
     assert!(folder.path().join("target/gramforge/arm3.rs").exists());
 }

@@ -1,0 +1,121 @@
+//! Puts it into words.
+
+use super::{ControlView, GuaranteeView, Inspection};
+use crate::emit::{domain_in_words, torque_in_words};
+use crate::graph::Operations;
+use crate::pipeline::Generation;
+use crate::spec::MatrixSpec;
+
+pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
+    let mut lines = vec![
+        format!("{}: {} joints ({})", view.name, view.joints, view.joint_names.join(", ")),
+        format!(
+            "exact model: {} functions, {} distinct coefficients, {} terms",
+            view.functions, view.coefficients, view.terms
+        ),
+    ];
+    for (number, psi) in (1..).zip(&view.selected) {
+        lines.push(format!("  psi_{number} = {psi}"));
+    }
+    let cost = |o: &Operations| format!("{} mul, {} add, {} sin-cos pairs", o.mul, o.add, o.trig_pairs);
+    lines.push(format!("emitted ({}): {}", view.form, cost(&view.operations.reduced)));
+    lines.push(format!("exact:   {}", cost(&view.operations.exact)));
+    lines.push(format!("verdict: {}", view.verdict));
+    let bounded = !view.selected.is_empty() || !generation.code.sines.rounds();
+    if bounded {
+        let largest = |values: &mut dyn Iterator<Item = &f64>| values.fold(0.0_f64, |a, &b| a.max(b));
+        lines.push(format!(
+            "bounds ({}) over {}: dD <= {}, dh <= {}, dG <= {}",
+            view.bounds.kind,
+            domain_in_words(&generation.domain),
+            up(largest(&mut view.bounds.D.iter().flatten())),
+            up(largest(&mut view.bounds.H.iter().flatten().flatten())),
+            up(largest(&mut view.bounds.G.iter())),
+        ));
+    }
+    if let Some(torque) = generation.torque.as_ref().filter(|_| bounded) {
+        lines.push(torque_in_words(torque));
+    }
+    for p in &view.uncertainty {
+        lines.push(format!("uncertain: {} in [{}, {}], here {}", p.name, p.low, p.high, p.nominal));
+    }
+    if let Some(adaptation) = &view.adaptation {
+        let count = adaptation.parameters.len();
+        lines.push(format!("parameters adapted: {count}; base and Y in {}", cost(&adaptation.operations)));
+    }
+    if let Some(control) = &view.control {
+        lines.push(gains(control));
+        lines.push(format!("control: k* = {:.4}, V_max(0) = {:.4} J", control.k_star, control.v_max));
+        lines.push(format!(
+            "largest errors: position ({}), velocity ({})",
+            list(control.position_error),
+            list(control.velocity_error)
+        ));
+    }
+    if let Some(promised) = &view.guarantee {
+        lines.extend(guarantee(promised));
+    }
+    lines.join("\n") + "\n"
+}
+
+fn gains(control: &ControlView) -> String {
+    let show = |gain: &MatrixSpec| match gain {
+        MatrixSpec::Scalar(value) => format!("{value:.4}"),
+        MatrixSpec::Diagonal(list) => format!("{list:.4?}"),
+        MatrixSpec::Full(rows) => format!("{rows:.4?}"),
+    };
+    let layer = control.boundary_layer.map_or("none".to_string(), |phi| format!("{phi:.4?}"));
+    format!(
+        "gains: W = {}, Pqq = {}, Omega = {}, boundary layer = {layer}, period = {} s",
+        show(&control.W),
+        show(&control.Pqq),
+        show(&control.Omega),
+        control.period
+    )
+}
+
+fn list(x: &[f64]) -> String {
+    x.iter().map(|&e| up(e)).collect::<Vec<_>>().join(", ")
+}
+
+/// Four digits, never below the number: what is printed of a bound is one, too.
+fn up(x: f64) -> String {
+    if x == 0.0 { "0".to_string() } else { format!("{:.3e}", x + 5e-4 * x.abs()) }
+}
+
+/// Four digits, never above the number.
+fn down(x: f64) -> String {
+    if x == 0.0 { "0".to_string() } else { format!("{:.3e}", x - 5e-4 * x.abs()) }
+}
+
+fn guarantee(promised: &GuaranteeView) -> Vec<String> {
+    let kind = if promised.inertia_certified { "certified" } else { "sampled" };
+    let mut lines = vec![
+        format!(
+            "final error: ({}){}",
+            list(promised.final_error),
+            if promised.guaranteed { "" } else { ", which means nothing without the guarantee" }
+        ),
+        format!(
+            "largest initial error: ({})",
+            promised.initial_error_max.iter().map(|&e| down(e)).collect::<Vec<_>>().join(", ")
+        ),
+        format!("smallest sufficient tube: {}", promised.tube_needed.map_or("none found".to_string(), list)),
+        format!(
+            "longest period: {} s, at every D of the domain held still; lambda_min(D) >= {} ({kind})",
+            down(promised.period_max),
+            down(promised.inertia_min)
+        ),
+        format!(
+            "guaranteed: {}{}",
+            promised.guaranteed,
+            if promised.guaranteed {
+                ", as long as the planned motion lasts and no torque limit cuts in"
+            } else {
+                ""
+            }
+        ),
+    ];
+    lines.extend(promised.reasons.iter().map(|reason| format!("  {reason}")));
+    lines
+}

@@ -1,0 +1,151 @@
+//! Gathers what is shown.
+
+use super::{
+    AdaptationView, BoundsView, ControlView, Costs, DomainView, EstimateView, GuaranteeView, Inspection,
+    RangeView, exact_in_words,
+};
+use crate::bounds::{Bounds, Effort, estimate, factor_bounds};
+use crate::design::Envelope;
+use crate::emit::{functions, verdict};
+use crate::measure::Domain;
+use crate::pipeline::{Generation, dictionary};
+use crate::spec::MatrixSpec;
+
+pub(super) fn view(generation: &Generation) -> Inspection<'_> {
+    let Generation { arm, lagrangian, reduced, bounds, code, exact_code, design, .. } = generation;
+    let operations = Costs { reduced: code.operations(), exact: exact_code.operations() };
+    let control = design.as_ref().map(|design| {
+        let Envelope { v_max, level, position_error, velocity_error, speed } = &design.envelope;
+        ControlView {
+            W: as_written(&design.w),
+            Pqq: as_written(&design.gains.pqq),
+            Omega: as_written(&design.omega),
+            boundary_layer: design.boundary_layer.as_deref(),
+            period: design.period,
+            k_star: design.k_star,
+            v_max: *v_max,
+            level: *level,
+            position_error,
+            velocity_error,
+            speed,
+        }
+    });
+    let guarantee = design.as_ref().map(|design| {
+        let promised = &design.guarantee;
+        GuaranteeView {
+            guaranteed: promised.holds,
+            reasons: &promised.reasons,
+            initial_error_max: &promised.initial_error_max,
+            period_max: promised.period_max,
+            final_error: &promised.final_error,
+            tube_needed: promised.tube_needed.as_deref(),
+            inertia_min: promised.inertia.least,
+            inertia_certified: promised.inertia.certified,
+        }
+    });
+    let uncertainty = generation.uncertainty.parameters.iter().map(|p| RangeView {
+        name: &p.name,
+        nominal: p.nominal,
+        low: p.nominal + p.low,
+        high: p.nominal + p.high,
+    });
+    Inspection {
+        uncertainty: uncertainty.collect(),
+        adaptation: adaptation(generation),
+        name: &generation.loaded.spec.name,
+        joints: arm.dof(),
+        joint_names: arm.joints.iter().map(|joint| joint.name.as_str()).collect(),
+        functions: lagrangian.functions.len(),
+        candidates: dictionary(&generation.loaded.spec).functions(lagrangian).len(),
+        coefficients: lagrangian.coefficients.len(),
+        terms: lagrangian.terms(),
+        selected: functions(lagrangian, reduced),
+        bounds: BoundsView {
+            kind: "certified",
+            D: &bounds.d,
+            H: &bounds.h,
+            G: &bounds.g,
+            B: diagonal(&bounds.b),
+            C: design.as_ref().map(|design| design.delta_c.as_slice()),
+            worst_ratio: generation.certificates.iter().map(|c| c.ratio()).fold(1.0, f64::max),
+            estimate: estimated(generation),
+            factor: by_factor(generation),
+        },
+        torque_error: generation.torque.as_ref().map(|torque| torque.error.clone()),
+        peak_torque: generation.torque.as_ref().map(|torque| torque.peak.clone()),
+        domain: domain_view(&generation.domain),
+        form: generation.form.name(),
+        verdict: if reduced.selected.is_empty() {
+            exact_in_words(&generation.loaded.spec.model).to_string()
+        } else if !reduced.simplified.contains(&true) {
+            "no coefficient has more functions than are kept, so nothing was simplified.".to_string()
+        } else {
+            verdict(&operations.reduced, &operations.exact)
+        },
+        operations,
+        control,
+        guarantee,
+        warnings: &generation.warnings,
+    }
+}
+
+fn adaptation(generation: &Generation) -> Option<AdaptationView<'_>> {
+    let adaptation = generation.design.as_ref()?.adaptation.as_ref()?;
+    let regressor = generation.regressor.as_ref()?;
+    let mut operations = regressor.code.operations();
+    if regressor.own_base {
+        let own = generation.code.operations();
+        operations.mul += own.mul;
+        operations.add += own.add;
+        operations.trig_pairs = operations.trig_pairs.max(own.trig_pairs);
+    }
+    let parameter = |k: usize| RangeView {
+        name: &adaptation.names[k],
+        nominal: adaptation.initial[k],
+        low: adaptation.low[k],
+        high: adaptation.high[k],
+    };
+    let parameters = (0..adaptation.names.len()).map(parameter).collect();
+    Some(AdaptationView { parameters, rate: &adaptation.rate, operations })
+}
+
+fn diagonal(values: &[f64]) -> Vec<Vec<f64>> {
+    let row = |i: usize| (0..values.len()).map(|j| if i == j { values[i] } else { 0.0 }).collect();
+    (0..values.len()).map(row).collect()
+}
+
+fn estimated(generation: &Generation) -> Option<EstimateView> {
+    let Generation { lagrangian, reduced, domain, motion, .. } = generation;
+    let deltas = estimate(lagrangian, reduced, domain, motion.as_ref())?;
+    let Bounds { d, h, g, .. } = Bounds::new(lagrangian, &deltas);
+    Some(EstimateView { D: d, H: h, G: g })
+}
+
+fn by_factor(generation: &Generation) -> Option<EstimateView> {
+    let Generation { lagrangian, reduced, uncertainty, domain, motion, regression, .. } = generation;
+    regression.as_ref()?;
+    let motion = motion.as_ref();
+    let deltas = factor_bounds(lagrangian, reduced, uncertainty, domain, motion, &Effort::default());
+    let Bounds { d, h, g, .. } = Bounds::new(lagrangian, &deltas);
+    Some(EstimateView { D: d, H: h, G: g })
+}
+
+fn domain_view(domain: &Domain) -> DomainView {
+    let (kind, position_error, position) = match domain {
+        Domain::Trajectory => ("trajectory", None, None),
+        Domain::Tube(errors) => ("tube", Some(errors.clone()), None),
+        Domain::Workspace(limits) => ("workspace", None, Some(limits.clone())),
+    };
+    DomainView { kind, position_error, position }
+}
+
+/// A gain as one would write it: its diagonal, where that is all.
+fn as_written(gain: &[Vec<f64>]) -> MatrixSpec {
+    let n = gain.len();
+    let diagonal = (0..n).all(|i| (0..n).all(|j| i == j || gain[i][j] == 0.0));
+    if diagonal {
+        MatrixSpec::Diagonal((0..n).map(|i| gain[i][i]).collect())
+    } else {
+        MatrixSpec::Full(gain.to_vec())
+    }
+}

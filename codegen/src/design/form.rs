@@ -1,0 +1,141 @@
+//! The quadratic forms that V and its fall are made of, and their extremes over a set of positions, by branch and bound
+//! over D.
+
+use nalgebra::DMatrix;
+
+use super::gains::Gains;
+use super::inertia::{Cell, Inertia};
+use super::linalg::{dense, rows, weighed};
+
+/// Relative gap at which the search for extremes of D ends.
+pub(super) const TOLERANCE: f64 = 0.05;
+/// Vertices at which a search over a domain may look, for an arm of one joint; the cost of each grows with n².
+pub(super) const BUDGET: usize = 200_000;
+/// The same for the positions about the start.
+const START_BUDGET: usize = 2_000;
+
+/// What D can do over a set of positions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InertiaBounds {
+    /// λ_min(D) from below, kg·m².
+    pub least: f64,
+    /// (D⁻¹)_ii from above, 1/(kg·m²).
+    pub mobility: Vec<f64>,
+    /// λ_max(M⁻¹ diag(D, Pqq)) from above, s: 2V ≤ this zᵀMz.
+    pub time: f64,
+    /// False where the search ended early, and the numbers are only what was seen.
+    pub certified: bool,
+}
+
+/// M of equation (17), inverted, with what follows from it.
+pub(super) struct Form {
+    pub(super) inverse: DMatrix<f64>,
+    root_inverse: DMatrix<f64>,
+}
+
+impl Form {
+    /// `None` where rounding has cost M its definiteness: gains some fifteen powers of ten apart.
+    pub(super) fn new(gains: &Gains) -> Option<Self> {
+        let n = gains.pqq.len();
+        let omega = dense(&gains.pqq) * dense(&gains.p12);
+        let m = DMatrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+            (true, true) => gains.damping[i][j],
+            (true, false) => -gains.pqq[i][j - n],
+            (false, true) => -gains.pqq[i - n][j],
+            (false, false) => omega[(i - n, j - n)],
+        });
+        let factor = m.cholesky()?;
+        let root_inverse = factor.l().try_inverse()?;
+        Some(Self { inverse: factor.inverse(), root_inverse })
+    }
+}
+
+/// Bounds on D over `cells`.
+pub(super) fn inertia_bounds(
+    inertia: &Inertia,
+    cells: Vec<Cell>,
+    gains: &Gains,
+    form: &Form,
+) -> InertiaBounds {
+    let n = gains.pqq.len();
+    let pqq = dense(&gains.pqq);
+    let root = &form.root_inverse;
+    let extremes = inertia.largest(cells, TOLERANCE, BUDGET / (n * n), |low, high| {
+        let mut out = match low.clone().cholesky() {
+            Some(factor) => {
+                let inverse = factor.inverse();
+                let top = inverse.symmetric_eigenvalues().max();
+                std::iter::once(top).chain((0..n).map(|i| inverse[(i, i)])).collect()
+            }
+            None => vec![f64::INFINITY; n + 1],
+        };
+        let mut energy = DMatrix::zeros(2 * n, 2 * n);
+        energy.view_mut((0, 0), (n, n)).copy_from(high);
+        energy.view_mut((n, n), (n, n)).copy_from(&pqq);
+        out.push((root * energy * root.transpose()).symmetric_eigenvalues().max());
+        out
+    });
+    let certified = extremes.bound.iter().all(|b| b.is_finite());
+    let values = if certified { extremes.bound } else { extremes.seen };
+    InertiaBounds { least: 1.0 / values[0], mobility: values[1..=n].to_vec(), time: values[n + 1], certified }
+}
+
+/// V_max(0): max ½ sᵀDs + ½ q_eᵀ Pqq q_e over the initial errors, J, for positions in `cell`.
+pub(super) fn initial_level(
+    inertia: &Inertia,
+    gains: &Gains,
+    cell: Cell,
+    position: &[f64],
+    velocity: &[f64],
+) -> f64 {
+    let n = position.len();
+    let s: Vec<f64> = (0..n).map(|i| velocity[i] + weighed(&gains.p12[i], position)).collect();
+    let elastic = largest_form(&dense(&gains.pqq), position);
+    if s.iter().all(|&s| s == 0.0) {
+        return elastic;
+    }
+    let extremes = inertia.largest(vec![cell], 1e-3, START_BUDGET, |_, high| vec![largest_form(high, &s)]);
+    extremes.bound[0] + elastic
+}
+
+/// The largest λ_max(D⁻¹K), 1/s, over `cells`; infinite where K has overflowed.
+pub(super) fn fastest(inertia: &Inertia, cells: Vec<Cell>, damping: &[Vec<f64>]) -> f64 {
+    let Some(factor) = dense(damping).cholesky() else { return f64::INFINITY };
+    let root = factor.l();
+    let extremes = inertia.largest(cells, TOLERANCE, BUDGET / damping.len().pow(2), |low, _| {
+        let Some(factor) = low.clone().cholesky() else { return vec![f64::INFINITY] };
+        vec![(root.transpose() * factor.solve(&root)).symmetric_eigenvalues().max()]
+    });
+    let (bound, seen) = (extremes.bound[0], extremes.seen[0]);
+    if bound.is_finite() { bound } else { seen }
+}
+
+/// K with the slope of the robust terms.
+pub(super) fn total(damping: &[Vec<f64>], more: &[Vec<f64>], slope: &[f64]) -> Vec<Vec<f64>> {
+    let n = slope.len();
+    let mut sum = dense(damping) + dense(more);
+    for i in 0..n {
+        sum[(i, i)] += slope[i];
+    }
+    rows(&sum)
+}
+
+/// max ½ xᵀ M x over |x_i| ≤ b_i: the form is convex, so a corner attains it, and the opposite one too. The corners are
+/// visited so that each differs from the one before in one sign, and the rounding that gathers on the way is added.
+fn largest_form(m: &DMatrix<f64>, b: &[f64]) -> f64 {
+    const GATHERED: f64 = 1e-12;
+    let n = b.len();
+    let mut x = b.to_vec();
+    let mut rows: Vec<f64> = (0..n).map(|i| (0..n).map(|j| m[(i, j)] * x[j]).sum()).collect();
+    let value = |x: &[f64], rows: &[f64]| 0.5 * x.iter().zip(rows).map(|(x, row)| x * row).sum::<f64>();
+    let mut most = value(&x, &rows).max(0.0);
+    for corner in 1..1_usize << n.saturating_sub(1) {
+        let i = corner.trailing_zeros() as usize;
+        x[i] = -x[i];
+        for (j, row) in rows.iter_mut().enumerate() {
+            *row += 2.0 * m[(j, i)] * x[i];
+        }
+        most = most.max(value(&x, &rows));
+    }
+    most * (1.0 + GATHERED)
+}
