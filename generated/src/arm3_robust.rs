@@ -9,7 +9,9 @@
 ///
 /// One passivity torque: 36 multiplications, 22 additions, 2 sine-cosine pairs.
 ///
-/// The exact model costs 50 multiplications, 32 additions, 2 sine-cosine pairs: the reduced one saves 24 of 82 operations.
+/// The exact model costs 48 multiplications, 32 additions, 2 sine-cosine pairs: the reduced one saves 22 of 80 operations.
+///
+/// Certified torque error by joint: at most (8.575e-1, 7.039e0, 3.945e0) of a peak torque of (9.428e-1, 4.278e1, 1.099e1), that is 9.091e1 % in the worst joint.
 ///
 /// Domain of the bounds: |q − q_d(t)| ≤ (0.2, 0.2, 0.2) around the desired trajectory. They are certified, rounding in f64 included; coefficients that are not simplified are those of the arm as specified but for rounding and for terms below 1e-12 of the largest, and their bounds hold what the uncertain numbers move them by.
 ///

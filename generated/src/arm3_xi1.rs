@@ -8,7 +8,9 @@
 ///
 /// One passivity torque: 31 multiplications, 15 additions, 2 sine-cosine pairs.
 ///
-/// The exact model costs 50 multiplications, 32 additions, 2 sine-cosine pairs: the reduced one saves 36 of 82 operations.
+/// The exact model costs 48 multiplications, 32 additions, 2 sine-cosine pairs: the reduced one saves 34 of 80 operations.
+///
+/// Certified torque error by joint: at most (6.549e-1, 1.233e1, 1.951e-1) of a peak torque of (9.428e-1, 4.278e1, 1.099e1), that is 6.943e1 % in the worst joint.
 ///
 /// Domain of the bounds: |q − q_d(t)| ≤ (0.2, 0.2, 0.2) around the desired trajectory. They are certified, rounding in f64 included; coefficients that are not simplified are exact but for rounding and for terms below 1e-12 of the largest, and count as zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -91,8 +91,18 @@ fn structural_faults_name_field_value_and_mend() {
         |v| v["model"] = json!({ "shared": { "functions": 1e30 } }),
         &["model.shared.functions: is 1e+30; write a whole number of at most 4294967295"],
     );
-    expect(|v| v["model"] = json!("shard"), &["model: is \"shard\"; write \"exact\""]);
-    expect(|v| v["model"] = json!(3), &["model: is 3; write \"exact\""]);
+    expect(
+        |v| v["model"] = json!("shard"),
+        &[
+            "model: is \"shard\"; write \"auto\", \"exact\", { \"shared\": … }, { \"separate\": … } or { \"tolerance\": … }",
+        ],
+    );
+    expect(
+        |v| v["model"] = json!(3),
+        &[
+            "model: is 3; write \"auto\", \"exact\", { \"shared\": … }, { \"separate\": … } or { \"tolerance\": … }",
+        ],
+    );
     expect(
         |v| v["measure"] = json!({ "tubes": { "position_error": 0.1 } }),
         &[
