@@ -227,6 +227,7 @@ impl Generation {
         if !uncertainty.viscous.is_empty() {
             bounds.b.clone_from(&uncertainty.viscous);
         }
+        let bounds = bounds.rounded_up();
         let mut regressor =
             regression.as_ref().map(|regression| body::regressor(&arm, &lagrangian, regression, form));
         if let Some(regressor) = &mut regressor {

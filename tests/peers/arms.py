@@ -16,6 +16,9 @@ ARMS = {
     "panda": ("tests/data/panda.json", "Panda"),
 }
 
+# Reduced models, by the tolerance in per cent of each joint's peak torque: over the workspace of this arm.
+REDUCED = ("puma560", "tests/data/puma560_workspace.json", {"1": 0.01, "2_5": 0.025, "5": 0.05})
+
 STATES = 512
 SPEED, ACCELERATION = 2.0, 10.0
 
@@ -69,6 +72,14 @@ def specification(name, trig):
         spec["arm"]["urdf"] = str(source.parent / spec["arm"]["urdf"])
     kept = {"name": f"{name}_{trig}", "arm": spec["arm"], "motion": spec["motion"], "model": "exact"}
     return kept if trig == "libm" else kept | {"emit": {"trig": trig}}
+
+
+def reduced_specification(tolerance, trig):
+    """The specification of a reduced model that stays within a tolerance, by its key in REDUCED."""
+    name, source, tolerances = REDUCED
+    spec = json.loads((ROOT / source).read_text())
+    spec |= {"name": f"{name}_within_{tolerance}_{trig}", "model": {"tolerance": {"torque": tolerances[tolerance]}}}
+    return spec if trig == "libm" else spec | {"emit": {"trig": trig}}
 
 
 def snapped(x):

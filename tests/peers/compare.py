@@ -15,7 +15,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from arms import ARMS, ROOT, STATES, Arm, specification
+from arms import ARMS, REDUCED, ROOT, STATES, Arm, reduced_specification, specification
 from measure import Program, deviation, nanoseconds, run
 from table import INVERSE, markdown
 
@@ -87,18 +87,24 @@ class Natives:
 
 
 def generated(names, gramforge):
-    """Generates every arm's exact module; the forms of trigonometry that this generator knows, and what it said."""
+    """Generates every arm's exact module and the reduced ones; the forms of trigonometry that this generator knows, and
+    what it said."""
     if gramforge is None:
         run(["cargo", "build", "--release", "--bin", "gramforge"], cwd=ROOT)
         gramforge = ROOT / "target/release/gramforge"
     folder, made = BUILD / "modules", {}
     folder.mkdir(exist_ok=True)
     trigs = ["libm"]
-    for name in ARMS:
+    arm, _, tolerances = REDUCED
+    kinds = [(name, name in names, lambda trig, name=name: specification(name, trig)) for name in ARMS]
+    for tolerance in tolerances:
+        specify = lambda trig, tolerance=tolerance: reduced_specification(tolerance, trig)
+        kinds.append((f"{arm}_within_{tolerance}", arm in names, specify))
+    for name, wanted, specify in kinds:
         for trig in ("libm", "polynomial"):
             path = BUILD / f"{name}_{trig}.json"
-            path.write_text(json.dumps(specification(name, trig), indent=2))
-            if name not in names and (folder / f"{name}_{trig}.rs").exists():
+            path.write_text(json.dumps(specify(trig), indent=2))
+            if not wanted and (folder / f"{name}_{trig}.rs").exists():
                 continue
             command = [gramforge, "generate", path, "--out", folder, "--json"]
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -187,6 +193,41 @@ def compared(arm, natives, trigs, made):
     return [{"implementation": name} | figures for name, _, figures in rows]
 
 
+def reduced(trigs, made, rows):
+    """Rows of the reduced models, with the certified error and instructions as a part of each CasADi row's."""
+    arm, _, tolerances = REDUCED
+    out = []
+    for tolerance in tolerances:
+        for trig in trigs:
+            module = f"{arm}_within_{tolerance}"
+            binary = BUILD / "cargo/release/gramforge-peers"
+            command = [binary, f"{module}_{trig}", BUILD / f"{arm}.states"]
+            program = Program(command, binary, rf"{module}_{trig}.*measured", "*::measured*")
+            said = made[module, trig]
+            instructions = program.instructions(STATES, BUILD / "callgrind.out")
+            parts = {
+                row["implementation"]: instructions / row["instructions"]
+                for row in rows
+                if row["implementation"].startswith("CasADi C")
+            }
+            errors = zip(said["torque_error"], said["peak_torque"])
+            count = said["operations"]
+            out.append(
+                {
+                    "tolerance": tolerances[tolerance],
+                    "trig": trig,
+                    "operations": count["mul"] + count["add"],
+                    "certified": max(error / peak for error, peak in errors),
+                    "instructions": instructions,
+                    "parts": parts,
+                    "code_bytes": program.code_bytes(),
+                    "source_bytes": said["bytes"],
+                    "seconds": said["seconds"],
+                }
+            )
+    return out
+
+
 def main():
     parser = argparse.ArgumentParser(description="Measures the exact generated code beside its peers.")
     parser.add_argument("arms", nargs="*", metavar="ARM", help=f"of {', '.join(ARMS)}; all by default")
@@ -206,6 +247,8 @@ def main():
     for name in names:
         print(f"measuring {name}", flush=True)
         result["arms"][name] = compared(Arm(name), natives, trigs, made)
+    if REDUCED[0] in names:
+        result["reduced"] = reduced(trigs, made, result["arms"][REDUCED[0]])
     (BUILD / "comparison.json").write_text(json.dumps(result, indent=2, ensure_ascii=False) + "\n")
     (BUILD / "comparison.md").write_text(markdown(result))
     print(markdown(result))

@@ -1,6 +1,6 @@
 """The comparison as Markdown."""
 
-from arms import ARMS
+from arms import ARMS, REDUCED
 
 INVERSE = "MuJoCo, mj_inverse (no v_r)"
 OURS, CASADI = "Gramforge exact", "CasADi C"
@@ -8,8 +8,8 @@ OURS, CASADI = "Gramforge exact", "CasADi C"
 
 def markdown(result):
     """A summary for README, then every figure, then what was measured with."""
-    parts = [summary(result), details(result), footnotes(result)]
-    return "\n\n".join("\n".join(lines) for lines in parts) + "\n"
+    parts = [summary(result), reduced(result), details(result), footnotes(result)]
+    return "\n\n".join("\n".join(lines) for lines in parts if lines) + "\n"
 
 
 def summary(result):
@@ -27,6 +27,32 @@ def summary(result):
         for title in ours:
             parts = [table[title]["instructions"] / table[peer]["instructions"] for table in tables.values()]
             lines += line([f"{title} / {peer}", *(f"{part:.2f}" for part in parts)])
+    return lines
+
+
+def reduced(result):
+    """The reduced models of one arm beside CasADi's code for the exact one."""
+    rows = result.get("reduced", [])
+    if not rows:
+        return []
+    peers = list(rows[0]["parts"])
+    heads = ["tolerance", "sines", "certified", "operations", "instructions", *(f"/ {peer}" for peer in peers)]
+    lines = [f"{ARMS[REDUCED[0]][1]} over its workspace, reduced to a part of each joint's peak torque:", ""]
+    lines += line([*heads, "code bytes", "source bytes", "generation, CPU s"]) + line(["---"] * (len(heads) + 3))
+    for row in rows:
+        lines += line(
+            [
+                f"{100 * row['tolerance']:g} %",
+                row["trig"],
+                f"{100 * row['certified']:.3f} %",
+                number(row["operations"]),
+                number(row["instructions"]),
+                *(f"{row['parts'][peer]:.2f}" for peer in peers),
+                number(row["code_bytes"]),
+                number(row["source_bytes"]),
+                f"{row['seconds']:.2g}",
+            ]
+        )
     return lines
 
 

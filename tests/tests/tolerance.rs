@@ -40,52 +40,115 @@ fn within(loaded: &Loaded, torque: f64) -> Generation {
     made(loaded.clone(), ModelSpec::Tolerance { torque })
 }
 
-/// The emitted code against the exact code at states of the domain, rates in corners of their box.
-fn search(generation: &Generation, states: usize) -> f64 {
-    let Generation { arm, motion, domain, .. } = generation;
-    let torque = generation.torque.as_ref().unwrap();
-    let n = arm.dof();
-    let rates = match (domain, motion) {
-        (Domain::Workspace(_), _) | (_, None) => Rates::limits(arm).unwrap(),
-        (_, Some(motion)) => Rates::of(motion),
-    };
-    let spread = Spread::new(n + 1);
-    let mut worst = 0.0_f64;
-    for index in 0..states {
-        let mut unit = spread.point(index);
-        if index % 3 == 0 {
-            unit[..n].iter_mut().for_each(|u| *u = u.round());
-        }
-        let q: Vec<f64> = match (domain, motion) {
+/// What the torque error is looked for over: positions as a box of variables, and the corners of the rates.
+struct Arena<'a> {
+    generation: &'a Generation,
+    rates: Rates,
+}
+
+/// A state: variables in the unit cube, the last one the time of a motion; bits say which rates are negative.
+#[derive(Clone)]
+struct State {
+    unit: Vec<f64>,
+    signs: usize,
+}
+
+impl Arena<'_> {
+    fn new(generation: &Generation) -> Arena<'_> {
+        let rates = match (&generation.domain, &generation.motion) {
+            (Domain::Workspace(_), _) | (_, None) => Rates::limits(&generation.arm).unwrap(),
+            (_, Some(motion)) => Rates::of(motion),
+        };
+        Arena { generation, rates }
+    }
+
+    fn position(&self, unit: &[f64]) -> Vec<f64> {
+        let n = self.generation.arm.dof();
+        match (&self.generation.domain, &self.generation.motion) {
             (Domain::Workspace(limits), _) => in_box(limits, &unit[..n]),
             (Domain::Tube(errors), Some(motion)) => {
                 let centre = motion.at(motion.duration() * unit[n]).q;
-                centre.iter().zip(errors).zip(&unit).map(|((q, e), u)| q + e * (2.0 * u - 1.0)).collect()
+                centre.iter().zip(errors).zip(unit).map(|((q, e), u)| q + e * (2.0 * u - 1.0)).collect()
             }
             (_, Some(motion)) => motion.at(motion.duration() * unit[n]).q,
-            (_, None) => continue,
+            (_, None) => unreachable!("a domain around no motion"),
+        }
+    }
+
+    /// |emitted − exact| by joint, as parts of what is certified.
+    fn parts(&self, state: &State) -> Vec<f64> {
+        let n = self.generation.arm.dof();
+        let q = self.position(&state.unit);
+        let corner = |rate: &[f64], from: usize| -> Vec<f64> {
+            let sign = |i: usize| if state.signs >> (from + i) & 1 == 1 { -1.0 } else { 1.0 };
+            (0..n).map(|i| sign(i) * rate[i]).collect()
         };
-        let corner = |rate: &[f64], salt: usize| -> Vec<f64> {
-            let bits = (index + 1).wrapping_mul(0x9e37_79b9) >> salt;
-            rate.iter().enumerate().map(|(i, r)| if bits >> i & 1 == 1 { -r } else { *r }).collect()
-        };
-        let (v, w) = (corner(&rates.speed, 5), corner(&rates.reference_speed, 11));
-        let a = corner(&rates.reference_acceleration, 17);
-        let model = generation.code.interpret(&q, &v, &w, &a);
-        let exact = generation.exact_code.interpret(&q, &v, &w, &a);
-        for i in 0..n {
+        let (v, w) = (corner(&self.rates.speed, 0), corner(&self.rates.reference_speed, n));
+        let a = corner(&self.rates.reference_acceleration, 2 * n);
+        let model = self.generation.code.interpret(&q, &v, &w, &a);
+        let exact = self.generation.exact_code.interpret(&q, &v, &w, &a);
+        let torque = self.generation.torque.as_ref().unwrap();
+        let part = |i: usize| {
             let error = (model[i] - exact[i]).abs();
             let rounding = 1e-11 * torque.peak[i];
             assert!(error <= torque.error[i] + rounding, "joint {}: {error} > {}", i + 1, torque.error[i]);
-            worst = worst.max(error / torque.peak[i]);
+            if torque.error[i] > 0.0 { error / torque.error[i] } else { 0.0 }
+        };
+        (0..n).map(part).collect()
+    }
+
+    /// Uphill for joint `i`, by steps along single variables and turns of single rates.
+    fn climb(&self, i: usize, mut state: State) -> f64 {
+        let n = self.generation.arm.dof();
+        let mut height = self.parts(&state)[i];
+        let mut step = 0.1;
+        while step > 1e-3 {
+            let before = height;
+            for change in 0..2 * (n + 1) + 3 * n {
+                let mut next = state.clone();
+                match change.checked_sub(2 * (n + 1)) {
+                    Some(bit) => next.signs ^= 1 << bit,
+                    None => {
+                        let turn = if change % 2 == 0 { step } else { -step };
+                        next.unit[change / 2] = (next.unit[change / 2] + turn).clamp(0.0, 1.0);
+                    }
+                }
+                let there = self.parts(&next)[i];
+                if there > height {
+                    (height, state) = (there, next);
+                }
+            }
+            step *= if height > before { 1.0 } else { 0.5 };
+        }
+        height
+    }
+}
+
+/// The emitted code against the exact code at states of the domain, sides among them, rates in corners of their box, and
+/// climbs from the worst of them for each joint. Largest error found as a part of what is certified.
+fn search(generation: &Generation, states: usize) -> f64 {
+    let arena = Arena::new(generation);
+    let n = generation.arm.dof();
+    let spread = Spread::new(n + 1);
+    let state = |index: usize| {
+        let side = |u: &f64| (0.5 + 1.4 * (u - 0.5)).clamp(0.0, 1.0);
+        let signs = (index + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 7;
+        State { unit: spread.point(index).iter().map(side).collect(), signs }
+    };
+    let mut best = vec![(0.0, 0); n];
+    for index in 0..states {
+        for (best, part) in best.iter_mut().zip(arena.parts(&state(index))) {
+            if part > best.0 {
+                *best = (part, index);
+            }
         }
     }
-    worst
+    (0..n).map(|i| arena.climb(i, state(best[i].1))).fold(0.0, f64::max)
 }
 
 /// Never dearer than exact, never dearer for a larger tolerance, certified within it.
 fn sweep(loaded: &Loaded, tolerances: &[f64], states: usize) -> Vec<Generation> {
-    println!("{}\n  tolerance  operations  pairs  certified  found  form", loaded.spec.name);
+    println!("{}\n  tolerance  operations  pairs  certified  found/certified  form", loaded.spec.name);
     let mut before = usize::MAX;
     let mut all = Vec::new();
     for &tolerance in tolerances {
@@ -98,7 +161,7 @@ fn sweep(loaded: &Loaded, tolerances: &[f64], states: usize) -> Vec<Generation> 
         assert!(certified <= tolerance, "{tolerance}: certified {certified}");
         let found = search(&generation, states);
         let (count, pairs, form) = (own.arithmetic(), own.trig_pairs, generation.form.name());
-        println!("  {tolerance:8}  {count:8}  {pairs:5}  {certified:9.5}  {found:.5}  {form}");
+        println!("  {tolerance:8}  {count:8}  {pairs:5}  {certified:9.5}  {found:15.3}  {form}");
         all.push(generation);
     }
     all
@@ -113,7 +176,7 @@ fn looser_tolerances_cost_less_and_every_certificate_holds() {
     assert!(price(last) < price(&sweep[2]) && price(&sweep[2]) < price(first));
     assert_eq!(last.form.name(), "sparse");
     // The certificate is not idle: a search comes near it.
-    assert!(search(last, 20_000) > 0.3 * last.torque.as_ref().unwrap().fraction());
+    assert!(search(last, 5_000) > 0.8);
 }
 
 #[test]
@@ -144,7 +207,7 @@ fn the_choice_does_not_depend_on_the_number_of_threads() {
 fn the_module_states_the_torque_error_and_whether_reducing_pays() {
     let text = within(&workspace(), 0.05).module().unwrap();
     assert!(text.contains("Certified torque error by joint: at most ("));
-    assert!(text.contains("the reduced one saves "));
+    assert!(text.contains("reducing pays here: the reduced one saves "));
 }
 
 /// The report counts p = 17 where 13 functions are independent.
@@ -191,7 +254,7 @@ fn models_over_products_keep_their_bounds_and_reach_the_exact_one() {
 #[ignore = "minutes; see the command above"]
 fn full_sweep() {
     let tolerances = [0.001, 0.002, 0.005, 0.01, 0.025, 0.05, 0.1, 0.2];
-    for name in ["puma560_workspace", "puma3", "ur5", "stanford", "panda"] {
+    for name in ["arm3_waypoints", "puma560_workspace", "ur5", "stanford", "panda"] {
         sweep(&specified(name), &tolerances, 100_000);
     }
 }

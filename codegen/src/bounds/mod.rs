@@ -53,6 +53,9 @@ const FLOOR: f64 = 1e-6;
 /// Terms of a residual beyond which enclosing a box term by term counts for more than one box.
 pub const LONG: usize = 1000;
 
+/// Decimal digits of published bounds.
+pub const DIGITS: usize = 6;
+
 /// How much work a certificate may take.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
@@ -281,6 +284,14 @@ impl Bounds {
     pub fn of(lagrangian: &Lagrangian, certificates: &[Certificate]) -> Self {
         let deltas: Vec<f64> = certificates.iter().map(|certificate| certificate.bound).collect();
         Self::new(lagrangian, &deltas)
+    }
+
+    /// With [`DIGITS`] digits, rounded up: what has to be read by people and stored in firmware needs no more.
+    #[must_use]
+    pub fn rounded_up(mut self) -> Self {
+        let all = self.d.iter_mut().chain(self.h.iter_mut().flatten()).chain([&mut self.b, &mut self.g]);
+        all.flatten().for_each(|bound| *bound = rounding::up(*bound, DIGITS));
+        self
     }
 
     /// Entry by entry the sum, rounded up.

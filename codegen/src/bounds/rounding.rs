@@ -63,3 +63,38 @@ pub fn monomial(lagrangian: &Lagrangian, l: usize, reach: &[f64]) -> f64 {
     let power = &lagrangian.functions[l].power;
     reach.iter().zip(power).fold(1.0, |p, (&q, &e)| (0..e).fold(p, |p, _| p * q))
 }
+
+/// The least decimal number of `digits` digits that is not below `x`, or `x` itself where there is none.
+pub fn up(x: f64, digits: usize) -> f64 {
+    let written = format!("{:.*e}", digits.saturating_sub(1), x);
+    let Some((mantissa, exponent)) = written.split_once('e') else { return x };
+    let whole = mantissa.replace('.', "").parse::<i64>().ok();
+    let shifted = exponent.parse::<i64>().ok().zip(i64::try_from(digits).ok());
+    let (Some(whole), Some((exponent, digits))) = (whole, shifted) else { return x };
+    let at = |whole: i64| format!("{whole}e{}", exponent - digits + 1).parse::<f64>().unwrap_or(x);
+    let near = at(whole);
+    let out = if near < x { at(whole + 1) } else { near };
+    if out.is_finite() && out >= x { out } else { x }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::up;
+
+    #[test]
+    fn a_few_digits_never_lie_below() {
+        assert_eq!(up(0.123_456_1, 6), 0.123_457);
+        assert_eq!(up(0.123_456, 6), 0.123_456);
+        assert_eq!(up(9.999_999_9e-7, 6), 1e-6);
+        assert_eq!(up(0.0, 6), 0.0);
+        assert_eq!(up(f64::INFINITY, 6), f64::INFINITY);
+        assert_eq!(up(f64::MAX, 6), f64::MAX);
+        assert!(up(5e-324, 6) >= 5e-324);
+        let mut x = 1e-9_f64;
+        while x < 1e9 {
+            let above = up(x, 6);
+            assert!(above >= x && above <= x * (1.0 + 1.1e-5), "{x} {above}");
+            x *= 1.000_37;
+        }
+    }
+}

@@ -50,6 +50,8 @@ struct Inspection<'a> {
     domain: DomainView,
     form: &'static str,
     operations: Costs,
+    /// Of the module, bytes.
+    size: usize,
     verdict: String,
     /// The uncertain numbers of inertia, each with its range.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -164,9 +166,10 @@ impl Inspect {
         let loaded = load(&self.spec)?;
         let generation = watched(|progress| Generation::with_progress(loaded, &effort, progress))?;
         show_warnings(&generation.warnings);
+        let size = generation.module()?.len();
         let view = watched(|progress| {
             let _stage = Stage::new(progress, "comparison of bounds", 1);
-            view(&generation)
+            view(&generation, size)
         });
         if self.json { json(&view) } else { Ok(text(&view, &generation)) }
     }

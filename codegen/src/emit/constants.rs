@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
+use super::docs::functions;
 use super::literal::{count, matrix, vector};
 use super::{Module, spaced};
 use crate::bounds::Bounds;
@@ -10,8 +11,8 @@ use crate::error::Error;
 
 pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
     let n = count(module.arm.dof());
-    let xi = count(module.reduced.selected.len());
-    let psi = module.reduced.selected.iter().map(|&l| module.lagrangian.functions[l].to_string());
+    let psi = functions(module.lagrangian, module.reduced);
+    let xi = count(psi.len());
     let operations = module.code.operations();
     let counts = [
         ("MULTIPLICATIONS", operations.mul, " Multiplications in one passivity torque."),
@@ -33,7 +34,7 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
         pub const JOINTS: usize = #n;
         /// Number of kept functions ξ; 0 for the exact model.
         pub const FUNCTIONS: usize = #xi;
-        /// The kept functions, in the order of selection.
+        /// The kept functions, in the order of the model's documentation.
         pub const PSI: [&str; #xi] = [#(#psi),*];
         #(#counts)*
         /// Diagonal of B, N·m·s/rad or N·s/m.

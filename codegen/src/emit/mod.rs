@@ -106,7 +106,8 @@ pub fn emit(module: &Module) -> Result<String, Error> {
 
         #controller
     };
-    Ok(docs::header(module) + &formatted(tokens)?)
+    let text = formatted(tokens)?;
+    Ok(docs::header(module, text.len()) + &text)
 }
 
 /// The items as text, a blank line between them.

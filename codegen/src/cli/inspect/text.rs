@@ -20,6 +20,7 @@ pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
     let cost = |o: &Operations| format!("{} mul, {} add, {} sin-cos pairs", o.mul, o.add, o.trig_pairs);
     lines.push(format!("emitted ({}): {}", view.form, cost(&view.operations.reduced)));
     lines.push(format!("exact:   {}", cost(&view.operations.exact)));
+    lines.push(format!("module:  {} bytes", view.size));
     lines.push(format!("verdict: {}", view.verdict));
     let bounded = !view.selected.is_empty() || !generation.code.sines.rounds();
     if bounded {

@@ -11,7 +11,8 @@ use crate::measure::Domain;
 use crate::pipeline::{Generation, dictionary};
 use crate::spec::MatrixSpec;
 
-pub(super) fn view(generation: &Generation) -> Inspection<'_> {
+/// `size` is that of the module, bytes.
+pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
     let Generation { arm, lagrangian, reduced, bounds, code, exact_code, design, .. } = generation;
     let operations = Costs { reduced: code.operations(), exact: exact_code.operations() };
     let control = design.as_ref().map(|design| {
@@ -83,6 +84,7 @@ pub(super) fn view(generation: &Generation) -> Inspection<'_> {
             verdict(&operations.reduced, &operations.exact)
         },
         operations,
+        size,
         control,
         guarantee,
         warnings: &generation.warnings,

@@ -44,6 +44,15 @@ arms! {
     stanford_libm StanfordLibm 6
     ur5_libm Ur5Libm 6
     panda_libm PandaLibm 7
+    puma560_within_1_libm Puma560Within1Libm 6
+    puma560_within_2_5_libm Puma560Within25Libm 6
+    puma560_within_5_libm Puma560Within5Libm 6
+    #[cfg(feature = "polynomial")]
+    puma560_within_1_polynomial Puma560Within1Polynomial 6
+    #[cfg(feature = "polynomial")]
+    puma560_within_2_5_polynomial Puma560Within25Polynomial 6
+    #[cfg(feature = "polynomial")]
+    puma560_within_5_polynomial Puma560Within5Polynomial 6
     #[cfg(feature = "polynomial")]
     threedof_polynomial ThreedofPolynomial 3
     #[cfg(feature = "polynomial")]
