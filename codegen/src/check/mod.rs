@@ -118,6 +118,13 @@ fn few_functions(spec: &Spec, faults: &mut Faults) {
             "write \"polynomial\" or \"libm\", or name such a `model`",
         );
     }
+    if spec.dictionary != DictionarySpec::Harmonic && (chosen || spec.model == ModelSpec::Exact) {
+        faults.push(
+            "dictionary",
+            "is for `shared` and `separate` models alone",
+            "leave it out, or name such a `model`",
+        );
+    }
     let adaptive = spec.control.as_ref().is_some_and(|control| control.law == LawSpec::Adaptive);
     let apart = matches!(spec.model, ModelSpec::Separate { .. });
     if adaptive && (chosen || products || apart) {

@@ -206,6 +206,42 @@ const CASES: &[Case] = &[
         &["is 0", "above 0 and below 1"],
     ),
     case(
+        "a dictionary for a model that has none",
+        |i| {
+            i.set("/dictionary", json!("product")).set("/model", json!({ "tolerance": { "torque": 0.01 } }));
+        },
+        "dictionary",
+        &["`shared` and `separate`", "leave it out"],
+    ),
+    case(
+        "a table of sines for a model to a tolerance",
+        |i| {
+            i.set("/emit", json!({ "trig": { "table": { "error": 1e-3 } } })).set("/model", json!("auto"));
+        },
+        "emit.trig",
+        &["takes a table", "polynomial"],
+    ),
+    case(
+        "an adaptive law for a model to a tolerance",
+        |i| {
+            i.set("/control/law", json!("adaptive"))
+                .set("/control/uncertainty", json!({"links": [{"joint": "joint3", "mass": [2.8, 4.2]}]}))
+                .set("/model", json!("auto"));
+        },
+        "control.law",
+        &["is `adaptive`", "\"shared\""],
+    ),
+    case(
+        "an adaptive law for separate functions",
+        |i| {
+            i.set("/control/law", json!("adaptive"))
+                .set("/control/uncertainty", json!({"links": [{"joint": "joint3", "mass": [2.8, 4.2]}]}))
+                .set("/model", json!({ "separate": { "functions": 2 } }));
+        },
+        "control.law",
+        &["is `adaptive`", "\"shared\""],
+    ),
+    case(
         "more functions than there are",
         |i| {
             i.set("/model/shared/functions", json!(12));
