@@ -86,14 +86,23 @@ impl Shown {
     fn report(&self, stage: &str, done: usize, total: usize) {
         let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
         let Some((stage, done, total)) = open.report(stage, done, total) else { return };
-        let template = if *total > 1 { COUNTED } else { PLAIN };
-        // A template that indicatif did not take would leave its own style, which is good enough.
-        if let Ok(style) = ProgressStyle::with_template(template) {
-            self.bar.set_style(style.progress_chars("=> "));
+        let style = |template| {
+            // A template that indicatif did not take would leave its own style, which is good enough.
+            if let Ok(style) = ProgressStyle::with_template(template) {
+                self.bar.set_style(style.progress_chars("=> "));
+            }
+        };
+        // Each of these may draw: no count may stand beside the name of another stage.
+        let changed = self.bar.message() != *stage;
+        if changed {
+            style(PLAIN);
+            self.bar.set_message(stage.clone());
         }
-        self.bar.set_message(stage.clone());
         self.bar.set_length(*total as u64);
         self.bar.set_position(*done as u64);
+        if changed && *total > 1 {
+            style(COUNTED);
+        }
     }
 }
 
