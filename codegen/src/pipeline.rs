@@ -228,6 +228,8 @@ impl Generation {
             Torque { error, peak }
         });
         drop(stage);
+        let mut warnings = warnings;
+        warnings.extend(model::wider(&loaded, torque.as_ref(), &uncertainty));
         if !uncertainty.viscous.is_empty() {
             bounds.b.clone_from(&uncertainty.viscous);
         }

@@ -214,6 +214,9 @@ fn the_certificate_of_an_uncertain_arm_holds_for_all_of_them() {
         let generation = within(&load(&path).unwrap(), 0.05);
         std::fs::remove_dir_all(&folder).unwrap();
         assert_eq!(generation.uncertainty.parameters.len(), 2);
+        let wider = generation.torque.as_ref().unwrap().fraction() > 0.05;
+        let warned = generation.warnings.iter().any(|text| text.contains("as specified"));
+        assert!(wider && warned, "{:?} {:?}", generation.torque, generation.warnings);
         assert!(search(&generation, 3_000) > 0.5);
     }
 }

@@ -33,6 +33,7 @@ pub use factor::{factor, factor_bounds};
 pub use peak::workspace_peak_torque;
 pub use recursion::recursion;
 pub use region::reach;
+pub(crate) use rounding::{printed_down, printed_up};
 pub use sines::with_sines;
 pub use torque::{Rates, Torque, largest_torque, peak_torque, separate_error, torque_error, torque_exceeds};
 

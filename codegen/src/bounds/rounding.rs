@@ -66,20 +66,54 @@ pub fn monomial(lagrangian: &Lagrangian, l: usize, reach: &[f64]) -> f64 {
 
 /// The least decimal number of `digits` digits that is not below `x`, or `x` itself where there is none.
 pub fn up(x: f64, digits: usize) -> f64 {
+    let out = neighbours(x, digits).into_iter().find(|&near| near >= x);
+    out.filter(|near| near.is_finite()).unwrap_or(x)
+}
+
+/// The largest decimal number of `digits` digits that is not above `x`, or `x` itself where there is none.
+fn down(x: f64, digits: usize) -> f64 {
+    neighbours(x, digits).into_iter().rev().find(|&near| near <= x).unwrap_or(x)
+}
+
+/// The decimal number of `digits` digits that is nearest to `x` ≥ 0, between the ones beside it; nothing for what is no
+/// number.
+fn neighbours(x: f64, digits: usize) -> Vec<f64> {
     let written = format!("{:.*e}", digits.saturating_sub(1), x);
-    let Some((mantissa, exponent)) = written.split_once('e') else { return x };
+    let Some((mantissa, exponent)) = written.split_once('e') else { return Vec::new() };
     let whole = mantissa.replace('.', "").parse::<i64>().ok();
     let shifted = exponent.parse::<i64>().ok().zip(i64::try_from(digits).ok());
-    let (Some(whole), Some((exponent, digits))) = (whole, shifted) else { return x };
-    let at = |whole: i64| format!("{whole}e{}", exponent - digits + 1).parse::<f64>().unwrap_or(x);
-    let near = at(whole);
-    let out = if near < x { at(whole + 1) } else { near };
-    if out.is_finite() && out >= x { out } else { x }
+    let (Some(whole), Some((exponent, digits))) = (whole, shifted) else { return Vec::new() };
+    let at = |whole: i64| format!("{whole}e{}", exponent - digits + 1).parse::<f64>().ok();
+    (-1..=1).filter_map(|step| at(whole + step)).collect()
+}
+
+/// `x` ≥ 0 with four digits, never below: what is printed of a bound is one, too.
+pub fn printed_up(x: f64) -> String {
+    if x == 0.0 { "0".to_string() } else { format!("{:.3e}", up(x, 4)) }
+}
+
+/// `x` ≥ 0 with four digits, never above.
+pub fn printed_down(x: f64) -> String {
+    if x == 0.0 { "0".to_string() } else { format!("{:.3e}", down(x, 4)) }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::up;
+    use super::{printed_down, printed_up, up};
+
+    #[test]
+    fn four_digits_enclose_what_they_print() {
+        assert_eq!((printed_down(82.839).as_str(), printed_up(82.839).as_str()), ("8.283e1", "8.284e1"));
+        assert_eq!((printed_down(0.05).as_str(), printed_up(0.05).as_str()), ("5.000e-2", "5.000e-2"));
+        assert_eq!((printed_down(0.0).as_str(), printed_up(0.0).as_str()), ("0", "0"));
+        let mut x = 1e-6_f64;
+        while x < 1e6 {
+            let (below, above) =
+                (printed_down(x).parse::<f64>().unwrap(), printed_up(x).parse::<f64>().unwrap());
+            assert!(below <= x && x <= above && above - below <= 1.001e-3 * x, "{below} {x} {above}");
+            x *= 1.000_73;
+        }
+    }
 
     #[test]
     fn a_few_digits_never_lie_below() {

@@ -114,7 +114,7 @@ fn few_functions(spec: &Spec, faults: &mut Faults) {
     if matches!(spec.emit.trig, TrigSpec::Table { .. }) && (chosen || products) {
         faults.push(
             "emit.trig",
-            "takes a table, which goes with `shared`, `separate` and `exact` models of the harmonic dictionary alone",
+            "takes a table, which goes with `shared`, `separate` and `exact` models of the harmonic dictionary alone (without `model` it is `auto`)",
             "write \"polynomial\" or \"libm\", or name such a `model`",
         );
     }
@@ -130,7 +130,7 @@ fn few_functions(spec: &Spec, faults: &mut Faults) {
     if adaptive && (chosen || products || apart) {
         faults.push(
             "control.law",
-            "is `adaptive`, which goes with `shared` and `exact` models of the harmonic dictionary alone",
+            "is `adaptive`, which goes with `shared` and `exact` models of the harmonic dictionary alone (without `model` it is `auto`)",
             "write `model` as {\"shared\": {\"functions\": N}} or \"exact\", or take law `report` or `tight`",
         );
     }

@@ -92,7 +92,7 @@ fn written(output: &Output) -> Written<'_> {
     let torque = generation.torque.as_ref();
     Written {
         verdict: if generation.reduced.selected.is_empty() {
-            exact_in_words(&generation.loaded.spec.model).to_string()
+            exact_in_words(generation)
         } else {
             verdict(&operations, &exact)
         },

@@ -18,7 +18,8 @@ use crate::graph::Operations;
 use crate::load::load;
 use crate::pipeline::Generation;
 use crate::progress::Stage;
-use crate::spec::{MatrixSpec, ModelSpec};
+use crate::spec::MatrixSpec;
+use crate::tolerance::why_exact;
 
 /// Shows the expansion, the chosen functions, bounds, gains and operation counts of a specification.
 #[derive(Debug, Args)]
@@ -175,12 +176,11 @@ impl Inspect {
     }
 }
 
-/// The verdict on an exact model.
-pub(super) fn exact_in_words(model: &ModelSpec) -> &'static str {
-    match model.tolerance() {
-        Some(_) => {
-            "no reduced model within the tolerance is cheaper than the exact one, so this is the exact model."
-        }
-        None => "this is the exact model.",
+/// What is said of a model that is the exact one.
+pub(super) fn exact_in_words(generation: &Generation) -> String {
+    let peak = generation.torque.as_ref().map(|torque| torque.peak.as_slice());
+    match generation.loaded.spec.model.tolerance() {
+        Some(fraction) => why_exact(&generation.lagrangian, peak, fraction),
+        None => "this is the exact model.".to_string(),
     }
 }

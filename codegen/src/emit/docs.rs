@@ -2,7 +2,7 @@
 
 use super::Module;
 use super::sines::up;
-use crate::bounds::Torque;
+use crate::bounds::{Torque, printed_down, printed_up};
 use crate::design::Guarantee;
 use crate::lagrangian::Lagrangian;
 use crate::measure::Domain;
@@ -175,13 +175,11 @@ pub(crate) fn functions(lagrangian: &Lagrangian, reduced: &Reduced) -> Vec<Strin
 
 /// The certified torque error in one sentence; its digits are rounded up.
 pub(crate) fn torque(torque: &Torque) -> String {
-    let up = |x: f64| if x == 0.0 { "0".to_string() } else { format!("{:.3e}", x + 5e-4 * x.abs()) };
-    let down = |x: f64| format!("{:.3e}", x - 5e-4 * x.abs());
     format!(
         "Certified torque error by joint: at most ({}) of a peak torque of ({}), that is {} % in the worst joint.",
-        torque.error.iter().map(|&e| up(e)).collect::<Vec<_>>().join(", "),
-        torque.peak.iter().map(|&p| down(p)).collect::<Vec<_>>().join(", "),
-        up(100.0 * torque.fraction())
+        torque.error.iter().map(|&e| printed_up(e)).collect::<Vec<_>>().join(", "),
+        torque.peak.iter().map(|&p| printed_down(p)).collect::<Vec<_>>().join(", "),
+        printed_up(100.0 * torque.fraction())
     )
 }
 

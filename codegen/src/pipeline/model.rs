@@ -1,10 +1,12 @@
 //! The model that a specification asks for, with its code.
 
-use crate::arm::Arm;
+use crate::arm::{Arm, Uncertainty};
 use crate::body::{self, Form};
+use crate::bounds::{Torque, printed_up};
 use crate::error::Faults;
 use crate::graph::Graph;
 use crate::lagrangian::Lagrangian;
+use crate::load::Loaded;
 use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::progress::Progress;
@@ -82,6 +84,21 @@ impl Ask<'_> {
     }
 }
 
+/// What is said where a tolerance, kept by the arm as specified, is not kept by all that it may be.
+pub(super) fn wider(loaded: &Loaded, torque: Option<&Torque>, uncertainty: &Uncertainty) -> Option<String> {
+    let (fraction, torque) = (loaded.spec.model.tolerance()?, torque?);
+    let more = !uncertainty.parameters.is_empty() && torque.fraction() > fraction;
+    more.then(|| {
+        format!(
+            "{}: model: the tolerance of {} % is kept by the arm as specified; over all that is uncertain the certified \
+             torque error is {} %",
+            loaded.path.display(),
+            100.0 * fraction,
+            printed_up(100.0 * torque.fraction())
+        )
+    })
+}
+
 /// Faults where more functions are asked for than there are.
 pub(super) fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Faults) {
     let p = dictionary(spec).functions(lagrangian).len();
@@ -91,7 +108,11 @@ pub(super) fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Fau
         ModelSpec::Exact | ModelSpec::Tolerance { .. } | ModelSpec::Auto => return,
     };
     if functions > p {
-        let problem = format!("is {functions}, but the exact model has {p} functions");
+        let whose = match spec.dictionary {
+            DictionarySpec::Harmonic => "exact model",
+            DictionarySpec::Product | DictionarySpec::Union => "dictionary",
+        };
+        let problem = format!("is {functions}, but the {whose} has {p} functions");
         faults.push(field, problem, format!("write a number from 1 to {p}, or `\"exact\"`"));
     }
 }

@@ -29,7 +29,7 @@ pub use samples::Samples;
 pub use separate::{minimax_each, separate};
 pub use shared::shared;
 pub use sparse::{Candidate, Group, Sparse, products};
-pub use tolerance::{Member, Problem, family};
+pub use tolerance::{Member, Problem, STRICTEST, family};
 
 use crate::lagrangian::{Coefficient, Combination, Entry, Lagrangian};
 use crate::measure::Measure;

@@ -90,7 +90,8 @@ pub enum LawSpec {
     Report,
     /// Equation (34) with the model's error bounded at the state at hand in place of its bracket, without ΔC1.
     Tight,
-    /// Equation (46): (34) with parameters that are learnt on the way, (49).
+    /// Equation (46): (34) with parameters that are learnt on the way, (49); for `shared` and `exact` models of the harmonic
+    /// dictionary.
     Adaptive,
 }
 

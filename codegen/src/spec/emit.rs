@@ -24,7 +24,8 @@ pub enum TrigSpec {
     Libm,
     /// Polynomials, as good as rounding and faster.
     Polynomial,
-    /// A table of one turn in the module, with second-order interpolation.
+    /// A table of one turn in the module, with second-order interpolation; for `shared`, `separate` and `exact` models of
+    /// the harmonic dictionary.
     Table {
         /// Largest error of a sine or cosine, 1e-10 to 0.1: the smallest table that keeps it is taken.
         error: f64,

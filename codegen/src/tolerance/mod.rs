@@ -24,6 +24,9 @@ const STRETCH: f64 = 1.5;
 /// Around a motion, where the sum of the coefficients' largest errors exceeds the limit by more than this, the sharper
 /// sum of the errors at the same position is not tried: its proof would not end.
 const HOPELESS: f64 = 1.8;
+/// Members whose error at the points is above the tolerance by this factor are looked at, too: between two of them the
+/// error jumps.
+const BEYOND: f64 = 1.13;
 /// Work for each coefficient's certificate.
 const EFFORT: Effort = Effort { tolerance: 0.03, boxes: 2000, starts: 3, seek_tube: false };
 /// Corners of the joint box beside them.
@@ -68,12 +71,29 @@ pub struct Choice {
     pub code: Graph,
 }
 
+/// Why a model to a tolerance is the exact one, in one sentence; `peak` is the largest torque by joint, N·m or N.
+pub fn why_exact(lagrangian: &Lagrangian, peak: Option<&[f64]>, fraction: f64) -> String {
+    let why = if lagrangian.terms() > LONG {
+        format!("an expansion of {} terms is too long for a search of reduced models", lagrangian.terms())
+    } else if peak.is_none_or(|peak| peak.iter().any(|&peak| peak <= 0.0)) {
+        "a joint without torque has no tolerance".to_string()
+    } else if BEYOND * fraction < reduction::STRICTEST {
+        format!(
+            "no reduced model is sought for tolerances below {:.2} %",
+            100.0 * reduction::STRICTEST / BEYOND
+        )
+    } else {
+        "no reduced model that was found within the tolerance is cheaper than the exact one".to_string()
+    };
+    why + ", so this is the exact model."
+}
+
 /// The cheapest among the exact model and the family of sparse ones whose certified torque error over the domain
 /// stays within `fraction` of each joint's peak torque.
 ///
 /// Cheap means few multiplications and additions of the code, with every sine-cosine pair as
-/// [`crate::graph::TRIG_PAIR`]. Neither the family nor its certificates depend on the fraction, and the first member in
-/// ascending price that is certified is taken, so that a larger fraction never costs more.
+/// [`crate::graph::TRIG_PAIR`]. The family of a larger fraction holds that of a smaller one, certificates do not depend on
+/// it, and the first member in ascending price that is certified is taken, so that a larger fraction never costs more.
 #[allow(clippy::too_many_arguments, reason = "what a model is chosen by, and who hears of it")]
 pub fn cheapest(
     lagrangian: &Lagrangian,
@@ -100,7 +120,8 @@ pub fn cheapest(
         .collect();
     let everywhere = extremes(measure, domain, motion);
     let points = points(domain, &everywhere);
-    let family = reduction::family(&Problem { lagrangian, shares: &shares, points: &points }, fraction);
+    let family =
+        reduction::family(&Problem { lagrangian, shares: &shares, points: &points }, BEYOND * fraction);
     let mut choices: Vec<Choice> = family
         .into_par_iter()
         .map(|member| {

@@ -1,6 +1,7 @@
 //! Puts it into words.
 
 use super::{ControlView, GuaranteeView, Inspection};
+use crate::bounds::{printed_down, printed_up};
 use crate::emit::{domain_in_words, torque_in_words};
 use crate::graph::Operations;
 use crate::pipeline::Generation;
@@ -29,9 +30,9 @@ pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
             "bounds ({}) over {}: dD <= {}, dh <= {}, dG <= {}",
             view.bounds.kind,
             domain_in_words(&generation.domain),
-            up(largest(&mut view.bounds.D.iter().flatten())),
-            up(largest(&mut view.bounds.H.iter().flatten().flatten())),
-            up(largest(&mut view.bounds.G.iter())),
+            printed_up(largest(&mut view.bounds.D.iter().flatten())),
+            printed_up(largest(&mut view.bounds.H.iter().flatten().flatten())),
+            printed_up(largest(&mut view.bounds.G.iter())),
         ));
     }
     if let Some(torque) = generation.torque.as_ref().filter(|_| bounded) {
@@ -76,17 +77,7 @@ fn gains(control: &ControlView) -> String {
 }
 
 fn list(x: &[f64]) -> String {
-    x.iter().map(|&e| up(e)).collect::<Vec<_>>().join(", ")
-}
-
-/// Four digits, never below the number: what is printed of a bound is one, too.
-fn up(x: f64) -> String {
-    if x == 0.0 { "0".to_string() } else { format!("{:.3e}", x + 5e-4 * x.abs()) }
-}
-
-/// Four digits, never above the number.
-fn down(x: f64) -> String {
-    if x == 0.0 { "0".to_string() } else { format!("{:.3e}", x - 5e-4 * x.abs()) }
+    x.iter().map(|&e| printed_up(e)).collect::<Vec<_>>().join(", ")
 }
 
 fn guarantee(promised: &GuaranteeView) -> Vec<String> {
@@ -99,13 +90,13 @@ fn guarantee(promised: &GuaranteeView) -> Vec<String> {
         ),
         format!(
             "largest initial error: ({})",
-            promised.initial_error_max.iter().map(|&e| down(e)).collect::<Vec<_>>().join(", ")
+            promised.initial_error_max.iter().map(|&e| printed_down(e)).collect::<Vec<_>>().join(", ")
         ),
         format!("smallest sufficient tube: {}", promised.tube_needed.map_or("none found".to_string(), list)),
         format!(
             "longest period: {} s, at every D of the domain held still; lambda_min(D) >= {} ({kind})",
-            down(promised.period_max),
-            down(promised.inertia_min)
+            printed_down(promised.period_max),
+            printed_down(promised.inertia_min)
         ),
         format!(
             "guaranteed: {}{}",

@@ -77,7 +77,7 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
         domain: domain_view(&generation.domain),
         form: generation.form.name(),
         verdict: if reduced.selected.is_empty() {
-            exact_in_words(&generation.loaded.spec.model).to_string()
+            exact_in_words(generation)
         } else if !reduced.simplified.contains(&true) {
             "no coefficient has more functions than are kept, so nothing was simplified.".to_string()
         } else {

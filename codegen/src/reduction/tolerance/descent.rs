@@ -9,7 +9,7 @@ use super::fitting::{Form, Table};
 use super::moves::{Moves, united};
 use super::price::Prices;
 use super::ties::{exchanged, tied};
-use super::{FIRST, Member, STEP, start};
+use super::{Member, STEP, STRICTEST, start};
 use crate::lagrangian::Lagrangian;
 use crate::reduction::sparse::{Candidate, Group, Sparse};
 
@@ -83,7 +83,7 @@ pub(super) fn members(
     };
     let mut out = Vec::new();
     let mut cheapest = usize::MAX;
-    let (mut level, mut polished) = (FIRST, FIRST * POLISH);
+    let (mut level, mut polished) = (STRICTEST, STRICTEST * POLISH);
     while level <= most {
         descent.descend(level);
         if level >= polished {

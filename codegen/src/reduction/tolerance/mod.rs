@@ -1,7 +1,6 @@
 //! Mode `tolerance`: a family of ever cheaper and coarser sparse models.
 //!
-//! The family is what a few descents pass through for an arm, a domain and its rates; it knows nothing of the tolerance that somebody asks
-//! for: a looser one sees the members that a stricter one sees and more, so that it never costs more.
+//! The family is what a few descents pass through for an arm, a domain and its rates, as far as somebody asks: a looser tolerance sees the members that a stricter one sees and more, so that it never costs more.
 
 mod descent;
 mod fitting;
@@ -18,7 +17,7 @@ use crate::lagrangian::{Lagrangian, evaluate};
 use fitting::Table;
 
 /// Where the descent begins: the torque error at the points as a fraction of the joint's torque.
-const FIRST: f64 = 3.5e-3;
+pub const STRICTEST: f64 = 3.5e-3;
 /// Ratio of the fractions of neighbouring steps.
 const STEP: f64 = 1.06;
 /// How keen on large steps each descent is: which one ends cheapest nobody can tell.
@@ -52,7 +51,7 @@ pub struct Member {
 /// Where the exact model is too long for a search, the family is empty.
 pub fn family(problem: &Problem, most: f64) -> Vec<Member> {
     let lagrangian = problem.lagrangian;
-    if most < FIRST || problem.points.is_empty() {
+    if most < STRICTEST || problem.points.is_empty() {
         return Vec::new();
     }
     let mut candidates: Vec<Candidate> = (0..lagrangian.functions.len()).map(Candidate::harmonic).collect();

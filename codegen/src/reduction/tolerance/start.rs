@@ -1,6 +1,6 @@
 //! Where the descent starts: each coefficient without the terms that hardly matter, by least squares.
 
-use super::FIRST;
+use super::STRICTEST;
 use super::fitting::{Form, Table};
 use crate::lagrangian::Lagrangian;
 use crate::reduction::lu::Lu;
@@ -19,7 +19,7 @@ pub(super) fn forms(lagrangian: &Lagrangian, table: &Table, m: usize) -> Form {
     let mut dropped = 0.0;
     let small = terms.iter().take_while(|term| {
         dropped += term.1.abs() * weight;
-        dropped <= TRUNCATED * FIRST
+        dropped <= TRUNCATED * STRICTEST
     });
     let from = small.count();
     let mut kept: Vec<usize> = terms[from..].iter().map(|term| term.0).collect();
@@ -43,7 +43,7 @@ fn eliminated(table: &Table, m: usize, kept: &mut Vec<usize>) -> Option<Vec<f64>
     let mut inverse: Vec<Vec<f64>> = (0..count).map(|i| lu.solve(&unit(i))).collect();
     let mut k = lu.solve(&columns.iter().map(|a| dot(a, alpha)).collect::<Vec<f64>>());
     let mut alive = vec![true; count];
-    let most = PART * FIRST / table.weights[m];
+    let most = PART * STRICTEST / table.weights[m];
     loop {
         let loss = |i: usize| k[i] * k[i] / inverse[i][i];
         let next = (0..count).filter(|&i| alive[i]).min_by(|&a, &b| loss(a).total_cmp(&loss(b)));
