@@ -186,11 +186,20 @@ pub(crate) fn torque(torque: &Torque) -> String {
 /// Whether reducing pays, in one sentence.
 pub(crate) fn verdict(reduced: &crate::graph::Operations, exact: &crate::graph::Operations) -> String {
     let (mine, theirs) = (reduced.arithmetic(), exact.arithmetic());
-    if mine < theirs {
+    // As the search compares them: a sine and cosine count, too.
+    if reduced.price() >= exact.price() {
+        format!(
+            "the exact one is not dearer ({theirs} operations and {} sine-cosine pairs against {mine} and {}), so reducing \
+             does not pay here.",
+            exact.trig_pairs, reduced.trig_pairs
+        )
+    } else if mine < theirs {
         format!("reducing pays here: the reduced one saves {} of {theirs} operations.", theirs - mine)
     } else {
+        let fewer = exact.trig_pairs.saturating_sub(reduced.trig_pairs);
         format!(
-            "the exact one is not dearer ({theirs} operations against {mine}), so reducing does not pay here."
+            "reducing pays here: the reduced one saves {fewer} of {} sine-cosine pairs.",
+            exact.trig_pairs
         )
     }
 }

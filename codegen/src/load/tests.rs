@@ -158,7 +158,7 @@ fn structural_faults_name_field_value_and_mend() {
         &["control.compensate_coulomb: is 1; write true or false"],
     );
     expect(|v| v["arm"]["lock"] = json!({ "j": "up" }), &["arm.lock.j: is \"up\"; write a number"]);
-    expect(|v| *v = json!([]), &["is []; write an object with `name`, `arm`, `model`"]);
+    expect(|v| *v = json!([]), &["is []; write an object with `name`, `arm`"]);
 }
 
 #[test]
