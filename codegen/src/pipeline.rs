@@ -20,7 +20,7 @@ use crate::motion::Motion;
 use crate::reduction::{self, Dictionary, Reduced, Regression};
 use crate::sines::Sines;
 use crate::spec::{DictionarySpec, LawSpec, MeasureSpec, ModelSpec, RefitSpec, Spec};
-use crate::tolerance::{Scale, cheapest};
+use crate::tolerance::{self, Scale};
 
 /// Half-width of the tube where the specification names no measure, rad or m.
 pub(crate) const DEFAULT_TUBE: f64 = 0.05;
@@ -173,10 +173,18 @@ impl Generation {
             }
             None => *effort,
         };
-        let (certificates, mut bounds) = if form == Form::Recursive && !sines.rounds() {
+        // The arm whose recursion it is.
+        let own_arm = reduced.dropped.as_ref().map_or(&arm, |dropped| &dropped.arm);
+        let beyond = !sines.rounds() || reduced.dropped.is_some() && sines.beyond_ulp() > 0.0;
+        // What the sines' error makes of the torque, where that is no matter of single coefficients.
+        let mut coarse: Option<Bounds> = None;
+        let (certificates, mut bounds) = if form == Form::Recursive && beyond {
             // What coarse sines do is known of the plain recursion alone.
-            code = body::plain(&arm);
-            recursive_bounds(&arm, &lagrangian, &reduced, &domain, motion.as_ref(), &effort_here, &sines)
+            code = body::plain(own_arm);
+            let own = recursion(own_arm, &reach(&domain, motion.as_ref()), sines.error);
+            let out = recursive_bounds(&own, &lagrangian, &reduced, &domain, motion.as_ref(), &effort_here, &sines);
+            coarse = Some(own);
+            out
         } else {
             let certificates = certified(&lagrangian, &reduced, &domain, motion.as_ref(), &effort_here);
             let certificates =
@@ -185,20 +193,28 @@ impl Generation {
             (certificates, bounds)
         };
         let torque = scale.map(|Scale { rates, peak }| {
-            if form == Form::Recursive {
+            if form == Form::Recursive && reduced.is_exact() {
                 return Torque { error: bounds.torque(&rates), peak };
             }
+            let of_coefficients: Vec<Certificate> = match coarse {
+                None => certificates.clone(),
+                Some(_) => certificates.iter().map(without_sines).collect(),
+            };
             let mut error =
-                torque_error(&lagrangian, &reduced, &domain, motion.as_ref(), &certificates, &rates);
+                torque_error(&lagrangian, &reduced, &domain, motion.as_ref(), &of_coefficients, &rates);
             if let (Some(fraction), true) = (spec.model.tolerance(), uncertainty.parameters.is_empty()) {
                 // The choice has proved as much, perhaps with more work, for sines within an ulp.
                 for (i, (error, peak)) in error.iter_mut().zip(&peak).enumerate() {
                     let multipliers = rates.multipliers(&lagrangian, i);
-                    let sines: f64 = certificates.iter().zip(&multipliers).map(|(c, u)| c.sines * u).sum();
+                    let sines: f64 = of_coefficients.iter().zip(&multipliers).map(|(c, u)| c.sines * u).sum();
                     let proved = fraction * peak;
                     let proved = if sines == 0.0 { proved } else { (proved + sines).next_up() };
                     *error = error.min(proved);
                 }
+            }
+            if let Some(own) = &coarse {
+                let added = own.torque(&rates);
+                error.iter_mut().zip(added).for_each(|(error, added)| *error = (*error + added).next_up());
             }
             Torque { error, peak }
         });
@@ -348,15 +364,34 @@ impl Ask<'_> {
         let fraction = self.spec.model.tolerance().unwrap_or_default();
         let known = self.lagrangian.at_nominal();
         let (form, code) = exact;
-        let choice = cheapest(&known, self.domain, self.motion, self.measure, scale, fraction, (*form, code));
+        let ask = tolerance::Ask {
+            arm: self.arm,
+            lagrangian: &known,
+            domain: self.domain,
+            motion: self.motion,
+            measure: self.measure,
+            scale,
+            exact: (*form, code),
+        };
+        let choice = tolerance::cheapest(&ask, fraction);
         Model { reduced: choice.reduced, form: choice.form, code: choice.code }
     }
 }
 
-/// Bounds on the plain recursion with sines off by more than rounding: what they do to it, and what uncertain parameters
-/// do.
+/// The certificate with the sines' part taken out, never below what was certified without it.
+fn without_sines(certificate: &Certificate) -> Certificate {
+    let bound = if certificate.sines == 0.0 {
+        certificate.bound
+    } else {
+        (certificate.bound - certificate.sines).max(0.0).next_up()
+    };
+    Certificate { bound, sines: 0.0, ..certificate.clone() }
+}
+
+/// Bounds on the plain recursion with sines off by more than rounding: `own`, what they do to it, with what it leaves out
+/// and what uncertain parameters do.
 fn recursive_bounds(
-    arm: &Arm,
+    own: &Bounds,
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     domain: &Domain,
@@ -368,8 +403,7 @@ fn recursive_bounds(
     let learnt = Reduced { combinations: vec![Vec::new(); reduced.combinations.len()], ..reduced.clone() };
     let certificates = certified(lagrangian, reduced, domain, motion, effort);
     let certificates = with_sines(certificates, lagrangian, &learnt, domain, motion, sines);
-    let own = recursion(arm, &reach(domain, motion), sines.error);
-    let bounds = Bounds::of(lagrangian, &certificates).plus(&own);
+    let bounds = Bounds::of(lagrangian, &certificates).plus(own);
     let add = |(mut certificate, more): (Certificate, Certificate)| {
         certificate.bound = (certificate.bound + more.bound).next_up();
         certificate.sines = (certificate.sines + more.bound).next_up();

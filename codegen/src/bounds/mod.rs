@@ -9,6 +9,7 @@ mod ascent;
 mod branch;
 mod envelope;
 mod estimate;
+mod evaluation;
 mod expansion;
 mod factor;
 mod grid;
@@ -29,6 +30,7 @@ mod torque;
 mod weighted;
 
 pub use estimate::estimate;
+pub use evaluation::evaluation;
 pub use factor::{factor, factor_bounds};
 pub use peak::workspace_peak_torque;
 pub use recursion::recursion;

@@ -56,9 +56,23 @@ impl Mul for Size {
 /// Bounds on what the recursive body of `arm` is off by, where |q_j| ≤ `reach` for prismatic joints and every sine and
 /// cosine is off by `sine`.
 pub fn recursion(arm: &Arm, reach: &[f64], sine: f64) -> Bounds {
+    entries(arm, reach, std::f64::consts::SQRT_2 * sine, &Size::bound)
+}
+
+/// `fraction` of the recursion over norms: what its entries change by where every parameter and every length changes by
+/// accordingly small parts.
+pub(super) fn recursion_size(arm: &Arm, reach: &[f64], fraction: f64) -> Bounds {
+    let mut bounds = entries(arm, reach, 0.0, &|size: Size| (fraction * size.exact).next_up());
+    for (j, joint) in arm.joints.iter().enumerate() {
+        bounds.d[j][j] = (bounds.d[j][j] + fraction * joint.armature.abs()).next_up();
+    }
+    bounds
+}
+
+fn entries(arm: &Arm, reach: &[f64], turn: f64, bound: &dyn Fn(Size) -> f64) -> Bounds {
     let n = arm.dof();
     let unit = |j: usize| -> Vec<f64> { (0..n).map(|i| if i == j { 1.0 } else { 0.0 }).collect() };
-    let (rest, model) = (vec![0.0; n], Norms { arm, reach, turn: std::f64::consts::SQRT_2 * sine });
+    let (rest, model) = (vec![0.0; n], Norms { arm, reach, turn, bound });
     let gravity = norm(&arm.gravity);
     let mut bounds = Bounds {
         d: vec![vec![0.0; n]; n],
@@ -85,6 +99,8 @@ struct Norms<'a> {
     reach: &'a [f64],
     /// √2 ε.
     turn: f64,
+    /// What is made of the size of an entry.
+    bound: &'a dyn Fn(Size) -> f64,
 }
 
 impl Norms<'_> {
@@ -118,8 +134,8 @@ impl Norms<'_> {
         for (j, joint) in self.arm.joints.iter().enumerate().rev() {
             let (force, moment) = (wrenches[j].0 + carried.0, wrenches[j].1 + carried.1);
             torque.push(match joint.kind {
-                JointKind::Revolute => moment.bound(),
-                JointKind::Prismatic => force.bound(),
+                JointKind::Revolute => (self.bound)(moment),
+                JointKind::Prismatic => (self.bound)(force),
             });
             let turn = self.turn(joint);
             carried = (turn * force, turn * moment + self.origin(j, joint) * turn * force);

@@ -68,7 +68,7 @@ impl Generate {
         };
         let Operations { mul, add, trig_pairs } = view.operations;
         let error = match &output.generation.torque {
-            Some(torque) if !output.generation.reduced.selected.is_empty() => {
+            Some(torque) if !output.generation.reduced.is_exact() => {
                 format!(" {}", torque_in_words(torque))
             }
             _ => String::new(),
@@ -85,7 +85,7 @@ fn written(output: &Output) -> Written<'_> {
     let (operations, exact) = (generation.code.operations(), generation.exact_code.operations());
     let torque = generation.torque.as_ref();
     Written {
-        verdict: if generation.reduced.selected.is_empty() {
+        verdict: if generation.reduced.is_exact() {
             exact_in_words(&generation.loaded.spec.model).to_string()
         } else {
             verdict(&operations, &exact)

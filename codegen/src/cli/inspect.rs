@@ -228,7 +228,7 @@ fn view(generation: &Generation) -> Inspection<'_> {
         peak_torque: generation.torque.as_ref().map(|torque| torque.peak.clone()),
         domain: domain_view(&generation.domain),
         form: generation.form.name(),
-        verdict: if reduced.selected.is_empty() {
+        verdict: if reduced.is_exact() {
             exact_in_words(&generation.loaded.spec.model).to_string()
         } else if !reduced.simplified.contains(&true) {
             "no coefficient has more functions than are kept, so nothing was simplified.".to_string()
@@ -317,7 +317,7 @@ fn text(view: &Inspection, generation: &Generation) -> String {
     lines.push(format!("emitted ({}): {}", view.form, cost(&view.operations.reduced)));
     lines.push(format!("exact:   {}", cost(&view.operations.exact)));
     lines.push(format!("verdict: {}", view.verdict));
-    let bounded = !view.selected.is_empty() || !generation.code.sines.rounds();
+    let bounded = !generation.reduced.is_exact() || !generation.code.sines.rounds();
     if bounded {
         let largest = |values: &mut dyn Iterator<Item = &f64>| values.fold(0.0_f64, |a, &b| a.max(b));
         lines.push(format!(

@@ -27,7 +27,7 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     let p = module.lagrangian.functions.len();
     let mut lines = Vec::new();
     let kept = functions(module.lagrangian, module.reduced);
-    if kept.is_empty() {
+    if module.reduced.is_exact() {
         lines.push(format!(" Exact model of `{}`, {n} joints, in {} form.", module.name, module.form.name()));
     } else {
         let (name, count) = (module.name, kept.len());

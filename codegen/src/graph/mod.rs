@@ -5,12 +5,14 @@ mod build;
 mod count;
 mod factor;
 mod interpret;
+mod magnitude;
 mod node;
 #[cfg(test)]
 mod tests;
 
 pub use build::{Builder, Expr};
 pub use count::{Operations, TRIG_PAIR};
+pub use magnitude::Magnitude;
 pub use node::{Name, Node, NodeId, Variable};
 
 use crate::sines::Sines;

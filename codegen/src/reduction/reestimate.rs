@@ -11,7 +11,8 @@ use crate::lagrangian::{Combination, Lagrangian};
 use crate::spec::RefitSpec;
 
 /// Lets every α̂_m follow the uncertain parameters: α̂_m + Σ_k u_k ∂α̂_m/∂u_k, where ∂α̂_m/∂u_k is what the kept
-/// functions make of ∂α_m/∂u_k over `points`, by either refit. Where α̂_m is exact, so is its derivative.
+/// functions make of ∂α_m/∂u_k over `points`, by either refit. Where α̂_m is exact, so is its derivative; so
+/// is that of a model that has left out parameters of the arm, whose uncertain ones act as ever.
 ///
 /// The re-estimated model is affine in u as the exact one is, and so is what it leaves out: the bound on that stands at
 /// a vertex of the box of u.
@@ -23,6 +24,9 @@ pub fn reestimate(
 ) -> Reduced {
     let mut wanted: Vec<(usize, usize)> = Vec::new();
     reduced.variations = lagrangian.coefficients.iter().map(|c| c.variations.clone()).collect();
+    if reduced.dropped.is_some() {
+        return reduced;
+    }
     for (m, coefficient) in lagrangian.coefficients.iter().enumerate().filter(|(m, _)| reduced.simplified[*m])
     {
         let varies = coefficient.variations.iter().enumerate().filter(|(_, terms)| !terms.is_empty());

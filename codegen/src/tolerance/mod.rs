@@ -1,5 +1,7 @@
 //! Mode `tolerance`: the cheapest model whose certified torque error is small enough.
 
+mod dropped;
+
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
@@ -7,7 +9,7 @@ use rayon::prelude::*;
 use crate::arm::Arm;
 use crate::body::{self, Form};
 use crate::bounds::{
-    Certificate, Effort, Rates, certified_beside, separate_error, torque_exceeds, workspace_peak_torque,
+    Certificate, Effort, Rates, certified_beside, reach, separate_error, torque_exceeds, workspace_peak_torque,
 };
 use crate::graph::Graph;
 use crate::lagrangian::{Combination, Lagrangian, evaluate};
@@ -67,28 +69,65 @@ pub struct Choice {
     pub code: Graph,
 }
 
-/// The cheapest among the exact model and the family of sparse ones whose certified torque error over the domain
-/// stays within `fraction` of each joint's peak torque.
+/// A candidate: what its code costs, and the model where it is not yet made.
+enum Candidate {
+    Sparse(Choice),
+    Recursive(Box<dropped::Member>),
+}
+
+impl Candidate {
+    fn code(&self) -> &Graph {
+        match self {
+            Self::Sparse(choice) => &choice.code,
+            Self::Recursive(member) => &member.code,
+        }
+    }
+
+    /// The whole of it; `None` where it is no model over the functions of `lagrangian`.
+    fn choice(self, lagrangian: &Lagrangian, reach: &[f64]) -> Option<Choice> {
+        match self {
+            Self::Sparse(choice) => Some(choice),
+            Self::Recursive(member) => {
+                let reduced = member.reduced(lagrangian, reach);
+                if std::env::var("GF_DEBUG").is_ok() { eprintln!("try price {} error {} some {}", member.code.operations().price(), member.error, reduced.is_some()); }
+                let reduced = reduced?;
+                Some(Choice { reduced, form: Form::Recursive, code: member.code })
+            }
+        }
+    }
+}
+
+/// What a model is sought for.
+#[derive(Clone, Copy, Debug)]
+pub struct Ask<'a> {
+    /// The arm.
+    pub arm: &'a Arm,
+    /// Its exact model, every parameter known.
+    pub lagrangian: &'a Lagrangian,
+    /// Where the model must hold.
+    pub domain: &'a Domain,
+    /// The desired motion.
+    pub motion: Option<&'a Motion>,
+    /// Points of the domain.
+    pub measure: &'a Measure,
+    /// The torques that errors are compared with; `None` where they are unknown.
+    pub scale: Option<&'a Scale>,
+    /// Form and code of the exact model.
+    pub exact: (Form, &'a Graph),
+}
+
+/// The cheapest among the exact model, the family of sparse ones and the recursions of simpler arms whose certified
+/// torque error over the domain stays within `fraction` of each joint's peak torque.
 ///
 /// Cheap means few multiplications and additions of the code, with every sine-cosine pair as
-/// [`crate::graph::TRIG_PAIR`]. Neither the family nor its certificates depend on the fraction, and the first member in
-/// ascending price that is certified is taken, so that a larger fraction never costs more.
-pub fn cheapest(
-    lagrangian: &Lagrangian,
-    domain: &Domain,
-    motion: Option<&Motion>,
-    measure: &Measure,
-    scale: Option<&Scale>,
-    fraction: f64,
-    exact: (Form, &Graph),
-) -> Choice {
+/// [`crate::graph::TRIG_PAIR`]. Neither the families nor their certificates depend on the fraction, and the first member
+/// in ascending price that is certified is taken, so that a larger fraction never costs more.
+pub fn cheapest(ask: &Ask, fraction: f64) -> Choice {
+    let Ask { arm, lagrangian, domain, motion, measure, scale, exact } = *ask;
     let unreduced = || Choice { reduced: reduction::exact(lagrangian), form: exact.0, code: exact.1.clone() };
     let Some(scale) = scale.filter(|scale| scale.peak.iter().all(|&peak| peak > 0.0)) else {
         return unreduced();
     };
-    if lagrangian.terms() > LONG {
-        return unreduced();
-    }
     let shares: Vec<Vec<f64>> = scale
         .peak
         .iter()
@@ -97,8 +136,17 @@ pub fn cheapest(
         .collect();
     let everywhere = extremes(measure, domain, motion);
     let points = points(domain, &everywhere);
-    let family = reduction::family(&Problem { lagrangian, shares: &shares, points: &points }, fraction);
-    let mut choices: Vec<Choice> = family
+    let (sparse, recursive) = rayon::join(
+        || match lagrangian.terms() {
+            0..=LONG => reduction::family(&Problem { lagrangian, shares: &shares, points: &points }, fraction),
+            _ => Vec::new(),
+        },
+        || {
+            let problem = dropped::Problem { arm, lagrangian, shares: &shares, points: &points };
+            dropped::family(&problem, fraction)
+        },
+    );
+    let mut candidates: Vec<Candidate> = sparse
         .into_par_iter()
         .map(|member| {
             let reduced = member.model.reduced(lagrangian);
@@ -106,15 +154,20 @@ pub fn cheapest(
                 Some(model) => body::sparse(lagrangian, model),
                 None => exact.1.clone(),
             };
-            Choice { reduced, form: Form::Sparse, code }
+            Candidate::Sparse(Choice { reduced, form: Form::Sparse, code })
         })
-        .filter(|choice| choice.code.operations().price() < exact.1.operations().price())
         .collect();
-    choices.sort_by_key(|choice| choice.code.operations().price());
+    let hopeful = recursive.into_iter().filter(|member| member.error <= fraction);
+    candidates.extend(hopeful.map(|member| Candidate::Recursive(Box::new(member))));
+    let price = |candidate: &Candidate| candidate.code().operations().price();
+    candidates.retain(|candidate| price(candidate) < exact.1.operations().price());
+    candidates.sort_by_key(price);
+    let reach = reach(domain, motion);
     let limits: Vec<f64> = scale.peak.iter().map(|peak| fraction * peak).collect();
     let mut proofs = Proofs::default();
-    choices
+    candidates
         .into_iter()
+        .filter_map(|candidate| candidate.choice(lagrangian, &reach))
         .find(|choice| {
             let reduced = &choice.reduced;
             if !reduced.is_finite() || seen(lagrangian, reduced, &shares, &everywhere) > fraction {
@@ -125,6 +178,7 @@ pub fn cheapest(
             let part = separate.iter().zip(&limits).map(|(e, limit)| e / limit).fold(0.0, f64::max);
             let exceeds =
                 || torque_exceeds(lagrangian, reduced, domain, motion, &certificates, &scale.rates, &limits);
+            if std::env::var("GF_DEBUG").is_ok() { eprintln!("  part {part} seen {} max rounding {:?}", seen(lagrangian, reduced, &shares, &everywhere), reduced.dropped.as_ref().map(|d| d.rounding.iter().fold(0.0_f64, |a,&b| a.max(b)))); }
             let hopeful = matches!(domain, Domain::Workspace(_)) || part <= HOPELESS;
             part <= 1.0 || hopeful && exceeds().is_none()
         })

@@ -1,0 +1,73 @@
+//! The recursion of simpler arms: inertial parameters left out one after the other, the others refitted.
+//!
+//! D, h and G are linear in the inertial parameters, so the error at points of the domain is linear in what is left
+//! out, and so is what the others make good again. The family is what two descents pass through, one that refits and one that
+//! does not (equal and round numbers of the arm make its own recursion cheaper); levels and steps know nothing of the
+//! tolerance asked for.
+
+mod descent;
+mod moves;
+mod refit;
+mod table;
+
+use crate::arm::{Arm, Inertial, Quantity};
+use crate::bounds::evaluation;
+use crate::graph::Graph;
+use crate::lagrangian::{Lagrangian, expand};
+use crate::reduction::{Reduced, without};
+use table::Table;
+
+/// What the models must be good for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Problem<'a> {
+    /// The arm.
+    pub arm: &'a Arm,
+    /// Its exact model.
+    pub lagrangian: &'a Lagrangian,
+    /// By joint and coefficient: the most that multiplies α_m in that row, over the joint's torque.
+    pub shares: &'a [Vec<f64>],
+    /// Points of the domain, rad or m.
+    pub points: &'a [Vec<f64>],
+}
+
+/// An arm of the family.
+#[derive(Clone, Debug)]
+pub(super) struct Member {
+    /// The arm; its bodies are not those of matter.
+    pub arm: Arm,
+    /// What it lacks.
+    lost: Vec<Inertial>,
+    /// Its torque.
+    pub code: Graph,
+    /// Largest Σ_m |r_m| Ū_m over the points and joints, as a fraction of the joint's torque.
+    pub error: f64,
+}
+
+/// The members with errors up to `most` at the points.
+pub(super) fn family(problem: &Problem, most: f64) -> Vec<Member> {
+    if problem.points.is_empty() {
+        return Vec::new();
+    }
+    let regrouped = problem.arm.regrouped();
+    let counts = |p: &Inertial| p.quantity == Quantity::Armature || regrouped.inertial(*p) != 0.0;
+    let parameters: Vec<Inertial> = (0..regrouped.dof()).flat_map(Inertial::of).filter(counts).collect();
+    let table = Table::new(problem, &regrouped, &parameters);
+    let (refitted, plain) = rayon::join(
+        || descent::members(&table, problem.arm, &parameters, most, true),
+        || descent::members(&table, problem.arm, &parameters, most, false),
+    );
+    refitted.into_iter().chain(plain).collect()
+}
+
+impl Member {
+    /// The model, where |q_j| ≤ `reach`; `None` where it is not one over the functions of `lagrangian`.
+    pub(super) fn reduced(&self, lagrangian: &Lagrangian, reach: &[f64]) -> Option<Reduced> {
+        let (mut reduced, lacking) = without(lagrangian, &expand(&self.arm), &self.arm)?;
+        let rounding = evaluation(lagrangian, &reduced.combinations, &lacking, &self.arm, &self.code, reach);
+        if let Some(dropped) = &mut reduced.dropped {
+            dropped.rounding = rounding;
+            dropped.parameters = self.lost.iter().map(|p| p.describe(&self.arm)).collect();
+        }
+        Some(reduced)
+    }
+}
