@@ -1,8 +1,18 @@
 //! Makes modules into `OUT_DIR` the way a user's build script does; `tests/generated_code.rs` includes them.
 
 fn main() {
-    let specs =
-        ["ur5", "stanford", "arm3_sinusoids", "arm3_waypoints", "arm3_csv", "arm3_polynomial", "arm3_table"];
+    let specs = [
+        "ur5",
+        "stanford",
+        "arm3_sinusoids",
+        "arm3_waypoints",
+        "arm3_csv",
+        "arm3_polynomial",
+        "arm3_table",
+        "puma3_separate",
+        "puma3_union",
+        "puma3_tolerance",
+    ];
     let config =
         specs.iter().fold(gramforge::Config::new(), |config, name| config.spec(format!("data/{name}.json")));
     config.run_in_build_script();

@@ -296,6 +296,7 @@ impl Generation {
             arm: &self.arm,
             uncertainty: &self.uncertainty,
             lagrangian: &self.lagrangian,
+            wanted: &self.loaded.spec.model,
             reduced: &self.reduced,
             bounds: &self.bounds,
             torque: self.torque.as_ref(),
@@ -412,7 +413,12 @@ fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Faults) {
         ModelSpec::Exact | ModelSpec::Tolerance { .. } | ModelSpec::Auto => return,
     };
     if functions > p {
-        let problem = format!("is {functions}, but the exact model has {p} functions");
+        let whose = match spec.dictionary {
+            DictionarySpec::Harmonic => "exact model",
+            DictionarySpec::Product => "dictionary `product`",
+            DictionarySpec::Union => "dictionary `union`",
+        };
+        let problem = format!("is {functions}, but the {whose} has {p} functions");
         faults.push(field, problem, format!("write a number from 1 to {p}, or `\"exact\"`"));
     }
 }

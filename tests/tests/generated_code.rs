@@ -26,6 +26,7 @@ macro_rules! included {
 }
 
 included!(ur5 stanford arm3_sinusoids arm3_waypoints arm3_csv arm3_polynomial arm3_table);
+included!(puma3_separate puma3_union puma3_tolerance);
 
 /// A module as `agrees` takes it: its name, its model, and its constants.
 macro_rules! module {
@@ -82,10 +83,12 @@ fn constants<const N: usize>(
     psi: &[&str],
 ) {
     let operations = made.code.operations();
-    let selected = &made.reduced.selected;
-    assert_eq!(counts, [selected.len(), operations.mul, operations.add, operations.trig_pairs]);
-    let names: Vec<String> = selected.iter().map(|&l| made.lagrangian.functions[l].to_string()).collect();
+    let names: Vec<String> = match &made.reduced.sparse {
+        Some(model) => model.functions.iter().map(|psi| psi.formula(&made.lagrangian)).collect(),
+        None => made.reduced.selected.iter().map(|&l| made.lagrangian.functions[l].to_string()).collect(),
+    };
     assert_eq!(psi, names);
+    assert_eq!(counts, [names.len(), operations.mul, operations.add, operations.trig_pairs]);
     assert_eq!(bounds.d.concat(), made.bounds.d.concat());
     assert_eq!(bounds.h.concat().concat(), made.bounds.h.concat().concat());
     assert_eq!(bounds.g, made.bounds.g[..]);
@@ -114,6 +117,11 @@ fn modules_of_a_build_script_agree_with_their_generation() {
     module!(arm3_csv, Arm3Csv);
     module!(arm3_polynomial, Arm3Polynomial);
     module!(arm3_table, Arm3Table);
+    module!(puma3_separate, Puma3Separate);
+    module!(puma3_union, Puma3Union);
+    module!(puma3_tolerance, Puma3Tolerance);
+    assert_eq!(generation("puma3_tolerance").form.name(), "sparse");
+    assert_eq!(generation("puma3_union").form.name(), "sparse");
     for ready in [ur5::controller().is_ok(), stanford::controller().is_ok(), arm3_csv::controller().is_ok()] {
         assert!(ready);
     }

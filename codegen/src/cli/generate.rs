@@ -6,7 +6,6 @@ use std::sync::Arc;
 use clap::Args;
 use serde::Serialize;
 
-use super::inspect::exact_in_words;
 use super::progress::Bars;
 use super::{json, show_warnings};
 use crate::config::{Config, Output};
@@ -72,15 +71,12 @@ impl Generate {
             (false, true) => "written",
             (false, false) => "unchanged",
         };
-        let Operations { mul, add, trig_pairs } = view.operations;
-        let error = match &output.generation.torque {
-            Some(torque) if !output.generation.reduced.selected.is_empty() => {
-                format!(" {}", torque_in_words(torque))
-            }
-            _ => String::new(),
-        };
+        let cost = |o: &Operations| format!("{} mul, {} add, {} sin-cos pairs", o.mul, o.add, o.trig_pairs);
+        let (own, exact) = (cost(&view.operations), cost(&view.exact_operations));
+        let error = output.generation.torque.as_ref();
+        let error = error.map_or(String::new(), |torque| format!(" {}", torque_in_words(torque)));
         format!(
-            "{}: {state}, {} bytes, {mul} mul, {add} add, {trig_pairs} sin-cos pairs; {}{error}\n",
+            "{}: {state}, {} bytes, {own} (exact {exact}): {}{error}\n",
             view.path, view.bytes, view.verdict
         )
     }
@@ -91,11 +87,7 @@ fn written(output: &Output) -> Written<'_> {
     let (operations, exact) = (generation.code.operations(), generation.exact_code.operations());
     let torque = generation.torque.as_ref();
     Written {
-        verdict: if generation.reduced.selected.is_empty() {
-            exact_in_words(&generation.loaded.spec.model).to_string()
-        } else {
-            verdict(&operations, &exact)
-        },
+        verdict: verdict(&generation.loaded.spec.model, &generation.reduced, &operations, &exact),
         torque_error: torque.map(|torque| torque.error.as_slice()),
         peak_torque: torque.map(|torque| torque.peak.as_slice()),
         path: output.path.display().to_string(),

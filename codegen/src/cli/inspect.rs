@@ -18,7 +18,7 @@ use crate::graph::Operations;
 use crate::load::load;
 use crate::pipeline::Generation;
 use crate::progress::Stage;
-use crate::spec::{MatrixSpec, ModelSpec};
+use crate::spec::MatrixSpec;
 
 /// Shows the expansion, the chosen functions, bounds, gains and operation counts of a specification.
 #[derive(Debug, Args)]
@@ -172,15 +172,5 @@ impl Inspect {
             view(&generation, size)
         });
         if self.json { json(&view) } else { Ok(text(&view, &generation)) }
-    }
-}
-
-/// The verdict on an exact model.
-pub(super) fn exact_in_words(model: &ModelSpec) -> &'static str {
-    match model.tolerance() {
-        Some(_) => {
-            "no reduced model within the tolerance is cheaper than the exact one, so this is the exact model."
-        }
-        None => "this is the exact model.",
     }
 }

@@ -4,10 +4,12 @@ use super::Module;
 use super::sines::up;
 use crate::bounds::Torque;
 use crate::design::Guarantee;
+use crate::graph::Operations;
 use crate::lagrangian::Lagrangian;
 use crate::measure::Domain;
 use crate::reduction::Reduced;
 use crate::sines::{Kind, Sines};
+use crate::spec::ModelSpec;
 
 /// Comments above a body of `size` bytes. Without time, path or machine, so that the same specification gives the same
 /// bytes.
@@ -48,7 +50,7 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     if !kept.is_empty() {
         lines.push(String::new());
     }
-    let cost = |o: &crate::graph::Operations| {
+    let cost = |o: &Operations| {
         format!("{} multiplications, {} additions, {} sine-cosine pairs", o.mul, o.add, o.trig_pairs)
     };
     lines.push(format!(" One passivity torque: {}.", cost(&operations)));
@@ -57,12 +59,16 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     if let Some(line) = taken(sines) {
         lines.extend([line, String::new()]);
     }
+    lines.push(format!(
+        " The cheapest exact code takes {}: {}",
+        cost(&exact),
+        verdict(module.wanted, module.reduced, &operations, &exact)
+    ));
+    lines.push(String::new());
+    if let Some(known) = module.torque {
+        lines.extend([format!(" {}", torque(known)), String::new()]);
+    }
     if !kept.is_empty() {
-        lines.push(format!(" The exact model costs {}: {}", cost(&exact), verdict(&operations, &exact)));
-        lines.push(String::new());
-        if let Some(known) = module.torque {
-            lines.extend([format!(" {}", torque(known)), String::new()]);
-        }
         lines.push(format!(
             " Domain of the bounds: {}. They are certified, rounding in f64 included; {}{}.",
             domain(module.domain),
@@ -173,27 +179,73 @@ pub(crate) fn functions(lagrangian: &Lagrangian, reduced: &Reduced) -> Vec<Strin
     }
 }
 
-/// The certified torque error in one sentence; its digits are rounded up.
+/// The certified torque error in one sentence; the digits of errors are rounded up, those of peaks down.
 pub(crate) fn torque(torque: &Torque) -> String {
-    let up = |x: f64| if x == 0.0 { "0".to_string() } else { format!("{:.3e}", x + 5e-4 * x.abs()) };
-    let down = |x: f64| format!("{:.3e}", x - 5e-4 * x.abs());
+    if torque.error.iter().all(|&e| e == 0.0) {
+        return "Certified torque error: 0 but for rounding.".to_string();
+    }
+    let up = |x: f64| plain(x + 5e-4 * x.abs());
+    let down = |x: f64| plain(x - 5e-4 * x.abs());
+    let part = torque.fraction();
+    // A joint that takes no torque at all makes no percentage.
+    let part = if part.is_finite() {
+        format!(", that is {} % in the worst joint", up(100.0 * part))
+    } else {
+        String::new()
+    };
     format!(
-        "Certified torque error by joint: at most ({}) of a peak torque of ({}), that is {} % in the worst joint.",
+        "Certified torque error by joint: at most ({}) of a peak torque of ({}){part}.",
         torque.error.iter().map(|&e| up(e)).collect::<Vec<_>>().join(", "),
         torque.peak.iter().map(|&p| down(p)).collect::<Vec<_>>().join(", "),
-        up(100.0 * torque.fraction())
     )
 }
 
-/// Whether reducing pays, in one sentence.
-pub(crate) fn verdict(reduced: &crate::graph::Operations, exact: &crate::graph::Operations) -> String {
-    let (mine, theirs) = (reduced.arithmetic(), exact.arithmetic());
-    if mine < theirs {
-        format!("reducing pays here: the reduced one saves {} of {theirs} operations.", theirs - mine)
+/// Four digits, without an exponent where few zeros do.
+fn plain(x: f64) -> String {
+    let short = format!("{x:.3e}");
+    match short.parse::<f64>() {
+        Ok(value) if value == 0.0 || (1e-4..1e6).contains(&value.abs()) => value.to_string(),
+        _ => short,
+    }
+}
+
+/// Whether reducing pays, in one sentence; `wanted` is what the specification asks for.
+///
+/// Code is compared by [`Operations::price`], as where models are chosen.
+pub(crate) fn verdict(wanted: &ModelSpec, reduced: &Reduced, own: &Operations, exact: &Operations) -> String {
+    if reduced.selected.is_empty() {
+        return match wanted.tolerance() {
+            Some(part) => format!(
+                "no cheaper model that keeps within {} % of the peak torque was found, so reducing does not pay here and \
+                 this is the exact model.",
+                plain(100.0 * part)
+            ),
+            None => "this is the exact model.".to_string(),
+        };
+    }
+    let (mine, theirs) = (own.arithmetic(), exact.arithmetic());
+    let cost =
+        |o: &Operations| format!("{} operations and {} sine-cosine pairs", o.arithmetic(), o.trig_pairs);
+    let same_pairs = own.trig_pairs == exact.trig_pairs;
+    if own.price() < exact.price() {
+        return if same_pairs {
+            format!("reducing pays here: the reduced one saves {} of {theirs} operations.", theirs - mine)
+        } else {
+            format!("reducing pays here: the reduced one takes {}, the exact one {}.", cost(own), cost(exact))
+        };
+    }
+    let compared = if same_pairs {
+        format!("{theirs} operations against {mine}")
     } else {
+        format!("{} against {}", cost(exact), cost(own))
+    };
+    if wanted.tolerance().is_none() && !reduced.simplified.contains(&true) {
         format!(
-            "the exact one is not dearer ({theirs} operations against {mine}), so reducing does not pay here."
+            "no coefficient has more functions than are kept, so nothing was simplified, and the exact one is not dearer \
+             ({compared})."
         )
+    } else {
+        format!("the exact one is not dearer ({compared}), so reducing does not pay here.")
     }
 }
 

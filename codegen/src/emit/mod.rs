@@ -23,6 +23,7 @@ use crate::lagrangian::Lagrangian;
 use crate::measure::Domain;
 use crate::motion::Motion;
 use crate::reduction::Reduced;
+use crate::spec::ModelSpec;
 
 /// What a module is made from.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +38,8 @@ pub struct Module<'a> {
     pub uncertainty: &'a Uncertainty,
     /// The exact model.
     pub lagrangian: &'a Lagrangian,
+    /// What the specification asks for.
+    pub wanted: &'a ModelSpec,
     /// The model that is emitted.
     pub reduced: &'a Reduced,
     /// What it leaves out.

@@ -34,7 +34,7 @@ pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
             up(largest(&mut view.bounds.G.iter())),
         ));
     }
-    if let Some(torque) = generation.torque.as_ref().filter(|_| bounded) {
+    if let Some(torque) = &generation.torque {
         lines.push(torque_in_words(torque));
     }
     for p in &view.uncertainty {

@@ -2,7 +2,7 @@
 
 use super::{
     AdaptationView, BoundsView, ControlView, Costs, DomainView, EstimateView, GuaranteeView, Inspection,
-    RangeView, exact_in_words,
+    RangeView,
 };
 use crate::bounds::{Bounds, Effort, estimate, factor_bounds};
 use crate::design::Envelope;
@@ -76,13 +76,7 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
         peak_torque: generation.torque.as_ref().map(|torque| torque.peak.clone()),
         domain: domain_view(&generation.domain),
         form: generation.form.name(),
-        verdict: if reduced.selected.is_empty() {
-            exact_in_words(&generation.loaded.spec.model).to_string()
-        } else if !reduced.simplified.contains(&true) {
-            "no coefficient has more functions than are kept, so nothing was simplified.".to_string()
-        } else {
-            verdict(&operations.reduced, &operations.exact)
-        },
+        verdict: verdict(&generation.loaded.spec.model, reduced, &operations.reduced, &operations.exact),
         operations,
         size,
         control,
