@@ -1,5 +1,7 @@
 //! All stages in order: from a checked specification to a model, its bounds, its controller and its code.
 
+mod model;
+
 use std::path::Path;
 
 use crate::arm::{Arm, Built, JointKind, Uncertainty, indefinite, indefinite_among};
@@ -18,10 +20,12 @@ use crate::load::{Loaded, load, spec_hash};
 use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::progress::{Progress, Silent, Stage};
-use crate::reduction::{self, Dictionary, Reduced, Regression};
+use crate::reduction::{self, Reduced, Regression};
 use crate::sines::Sines;
-use crate::spec::{DictionarySpec, LawSpec, MeasureSpec, ModelSpec, RefitSpec, Spec};
-use crate::tolerance::{Scale, cheapest};
+use crate::spec::{LawSpec, MeasureSpec, RefitSpec, Spec};
+use crate::tolerance::Scale;
+pub(crate) use model::dictionary;
+use model::{Ask, Model, check_count};
 
 /// Half-width of the tube where the specification names no measure, rad or m.
 pub(crate) const DEFAULT_TUBE: f64 = 0.05;
@@ -311,76 +315,6 @@ impl Generation {
     }
 }
 
-/// A model with its code.
-struct Model {
-    reduced: Reduced,
-    form: Form,
-    code: Graph,
-}
-
-/// What a model is chosen by.
-struct Ask<'a> {
-    spec: &'a Spec,
-    arm: &'a Arm,
-    lagrangian: &'a Lagrangian,
-    domain: &'a Domain,
-    motion: Option<&'a Motion>,
-    measure: &'a Measure,
-    points: &'a [Vec<f64>],
-    progress: &'a dyn Progress,
-}
-
-impl Ask<'_> {
-    /// The model that the specification asks for; `exact` is the form and the code of the exact one.
-    fn model(&self, scale: Option<&Scale>, exact: &(Form, Graph)) -> Model {
-        let Self { spec, arm, lagrangian, measure, points, .. } = *self;
-        let minimax = spec.refit == RefitSpec::Minimax;
-        let reduced = match spec.model {
-            ModelSpec::Exact => {
-                let (form, code) = exact.clone();
-                return Model { reduced: reduction::exact(lagrangian), form, code };
-            }
-            ModelSpec::Auto | ModelSpec::Tolerance { .. } => {
-                return self.cheapest(scale, exact);
-            }
-            ModelSpec::Shared { functions } | ModelSpec::Separate { functions }
-                if spec.dictionary != DictionarySpec::Harmonic =>
-            {
-                let separate = matches!(spec.model, ModelSpec::Separate { .. });
-                let candidates = dictionary(spec).functions(lagrangian);
-                let mut model =
-                    reduction::over_dictionary(lagrangian, measure, candidates, functions, separate);
-                if minimax {
-                    model = reduction::minimax_sparse(lagrangian, model, functions, points);
-                }
-                let code = body::sparse(lagrangian, &model);
-                return Model { reduced: model.reduced(lagrangian), form: Form::Sparse, code };
-            }
-            ModelSpec::Shared { functions } => {
-                let reduced = reduction::shared(lagrangian, measure, functions);
-                if minimax { reduction::minimax(lagrangian, reduced, points) } else { reduced }
-            }
-            ModelSpec::Separate { functions } => {
-                let reduced = reduction::separate(lagrangian, measure, functions);
-                if minimax { reduction::minimax_each(lagrangian, reduced, points) } else { reduced }
-            }
-        };
-        let code = body::expanded(arm, lagrangian, &reduced);
-        Model { reduced, form: Form::Expanded, code }
-    }
-
-    /// The cheapest model within the tolerance, which is about the arm's own parameters.
-    fn cheapest(&self, scale: Option<&Scale>, exact: &(Form, Graph)) -> Model {
-        let fraction = self.spec.model.tolerance().unwrap_or_default();
-        let known = self.lagrangian.at_nominal();
-        let (form, code) = exact;
-        let (exact, progress) = ((*form, code), self.progress);
-        let choice =
-            cheapest(&known, self.domain, self.motion, self.measure, scale, fraction, exact, progress);
-        Model { reduced: choice.reduced, form: choice.form, code: choice.code }
-    }
-}
-
 /// Bounds on the plain recursion with sines off by more than rounding: what they do to it, and what uncertain parameters
 /// do, which is what the `certificates` given say.
 fn recursive_bounds(
@@ -403,33 +337,6 @@ fn recursive_bounds(
         certificate
     };
     (certificates.into_iter().zip(own.certificates(lagrangian)).map(add).collect(), bounds)
-}
-
-fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Faults) {
-    let p = dictionary(spec).functions(lagrangian).len();
-    let (field, functions) = match spec.model {
-        ModelSpec::Shared { functions } => ("model.shared.functions", functions),
-        ModelSpec::Separate { functions } => ("model.separate.functions", functions),
-        ModelSpec::Exact | ModelSpec::Tolerance { .. } | ModelSpec::Auto => return,
-    };
-    if functions > p {
-        let whose = match spec.dictionary {
-            DictionarySpec::Harmonic => "exact model",
-            DictionarySpec::Product => "dictionary `product`",
-            DictionarySpec::Union => "dictionary `union`",
-        };
-        let problem = format!("is {functions}, but the {whose} has {p} functions");
-        faults.push(field, problem, format!("write a number from 1 to {p}, or `\"exact\"`"));
-    }
-}
-
-/// The functions among which the reduction chooses.
-pub(crate) fn dictionary(spec: &Spec) -> Dictionary {
-    match spec.dictionary {
-        DictionarySpec::Harmonic => Dictionary::Harmonic,
-        DictionarySpec::Product => Dictionary::Product,
-        DictionarySpec::Union => Dictionary::Union,
-    }
 }
 
 /// Faults where the domain holds angles for which the sines chosen promise nothing.

@@ -72,10 +72,14 @@ fn the_verdict_follows_from_the_operations() {
             assert!(sayer.contains("Certified torque error"), "{sayer}");
         }
         assert_eq!(view["size"], module.len());
-        assert!(told.contains(&format!("{} bytes", module.len())) && shown.contains(&format!("{} bytes", module.len())));
+        assert!(
+            told.contains(&format!("{} bytes", module.len()))
+                && shown.contains(&format!("{} bytes", module.len()))
+        );
         for kind in ["reduced", "exact"] {
             let costs = &view["operations"][kind];
-            let short = format!("{} mul, {} add, {} sin-cos pairs", costs["mul"], costs["add"], costs["trig_pairs"]);
+            let short =
+                format!("{} mul, {} add, {} sin-cos pairs", costs["mul"], costs["add"], costs["trig_pairs"]);
             assert!(told.contains(&short) && shown.contains(&short), "{short}: {told}{shown}");
             let long = format!(
                 "{} multiplications, {} additions, {} sine-cosine pairs",

@@ -32,6 +32,9 @@ struct Exchange {
     score: f64,
 }
 
+/// Slots with the forms that an exchange took out of them.
+type Before = Vec<(usize, Arc<Form>)>;
+
 /// Where the descent stands. Cheap to copy.
 #[derive(Clone)]
 pub(super) struct Descent<'a> {
@@ -45,7 +48,7 @@ pub(super) struct Descent<'a> {
     simpler: Vec<Option<Arc<Vec<Form>>>>,
     united: BTreeMap<(usize, usize), Arc<Vec<Form>>>,
     /// What each exchange took the place of, by the slot of its form.
-    pub history: Vec<Vec<Vec<(usize, Arc<Form>)>>>,
+    pub history: Vec<Vec<Before>>,
     /// A slot and the functions that it is not to keep again.
     pub barred: Option<(usize, Vec<usize>)>,
     /// Power of the operations saved in the score of an exchange; below 1 small steps are preferred.
