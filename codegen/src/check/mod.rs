@@ -119,11 +119,11 @@ fn few_functions(spec: &Spec, faults: &mut Faults) {
     let asked = match spec.model {
         ModelSpec::Auto => "`model` is `auto`, as it is where none is written",
         ModelSpec::Tolerance { .. } => "`model` is `tolerance`",
+        ModelSpec::Exact => "`model` is `exact`",
         _ if spec.dictionary == DictionarySpec::Product => "`dictionary` is `product`",
         _ if spec.dictionary == DictionarySpec::Union => "`dictionary` is `union`",
         ModelSpec::Separate { .. } => "`model` is `separate`",
         ModelSpec::Shared { .. } => "`model` is `shared`",
-        ModelSpec::Exact => "`model` is `exact`",
     };
     if matches!(spec.emit.trig, TrigSpec::Table { .. }) && (chosen || products) {
         let problem = format!(

@@ -118,7 +118,7 @@ const CASES: &[Case] = &[
         |i| {
             i.set("/measure", json!("workspace")).set("/model", json!({ "tolerance": { "torque": 0.01 } }));
             for link in 0..3 {
-                i.link(link, "limits", json!({ "position": [-1.0, 1.0] }));
+                i.link(link, "limits", json!({ "position": [-3.0, 3.0] }));
             }
         },
         "measure",
@@ -129,7 +129,7 @@ const CASES: &[Case] = &[
         |i| {
             i.set("/measure", json!("workspace")).remove("/model");
             for link in 0..3 {
-                i.link(link, "limits", json!({ "position": [-1.0, 1.0], "velocity": 2.0 }));
+                i.link(link, "limits", json!({ "position": [-3.0, 3.0], "velocity": 2.0 }));
             }
         },
         "measure",

@@ -42,7 +42,7 @@ fn the_verdict_follows_from_the_operations() {
         ("arm3_xi1", &|_| {}, "reducing pays here"),
         ("arm3_xi2", &|spec| spec["model"] = json!({ "shared": { "functions": 8 } }), "is not dearer"),
         ("arm3_exact", &|_| {}, "this is the exact model."),
-        ("arm3_xi2", &strict, "keeps within 1.000e-4 % of the peak torque was found"),
+        ("arm3_xi2", &strict, "keeps within 0.0001 % of the peak torque was found"),
     ];
     let folder = tempfile::tempdir().expect("a folder");
     for (index, (name, edit, words)) in cases.into_iter().enumerate() {
