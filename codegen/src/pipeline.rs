@@ -182,7 +182,8 @@ impl Generation {
             // What coarse sines do is known of the plain recursion alone.
             code = body::plain(own_arm);
             let own = recursion(own_arm, &reach(&domain, motion.as_ref()), sines.error);
-            let out = recursive_bounds(&own, &lagrangian, &reduced, &domain, motion.as_ref(), &effort_here, &sines);
+            let out =
+                recursive_bounds(&own, &lagrangian, &reduced, &domain, motion.as_ref(), &effort_here, &sines);
             coarse = Some(own);
             out
         } else {

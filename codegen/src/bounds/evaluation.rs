@@ -11,9 +11,9 @@
 //!   bounds as well: [`MOVES`] roundings of that, far more than there are;
 //! - the roundings of the expansion, γ_1024 Σ|k̂_l| sup|ψ_l|, and what it lacks.
 
+use super::Bounds;
 use super::recursion::recursion_size;
 use super::rounding::{gamma, monomial};
-use super::Bounds;
 use crate::arm::Arm;
 use crate::graph::Graph;
 use crate::lagrangian::{Combination, Lagrangian};

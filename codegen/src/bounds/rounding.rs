@@ -53,7 +53,8 @@ pub fn published(lagrangian: &Lagrangian, m: usize, reduced: &Reduced, reach: &[
         gamma(256.0 + count as f64) * sum * largest
     });
     let recursion = reduced.dropped.as_ref().map_or(0.0, |dropped| dropped.rounding[m]);
-    let own = evaluation(kept) + products + recursion + exact(&coefficient.terms) + lagrangian.truncation * largest;
+    let own =
+        evaluation(kept) + products + recursion + exact(&coefficient.terms) + lagrangian.truncation * largest;
     let varied = lagrangian.ranges.iter().enumerate().map(|(k, [low, high])| {
         let learnt = reduced.variations.get(m).map_or(0.0, |v| evaluation(&v[k]));
         let rest = exact(&coefficient.variations[k]) + lagrangian.variation_truncation[k] * largest;

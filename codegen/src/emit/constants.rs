@@ -31,7 +31,7 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
     Ok(quote! {
         /// Number of joints n.
         pub const JOINTS: usize = #n;
-        /// Number of kept functions ξ; 0 for the exact model.
+        /// Number of kept functions ξ; 0 for the exact model and for that of a simpler arm.
         pub const FUNCTIONS: usize = #xi;
         /// The kept functions, in the order of selection.
         pub const PSI: [&str; #xi] = [#(#psi),*];

@@ -31,7 +31,14 @@ pub(super) fn model(module: &Module) -> Vec<String> {
         lines.push(format!(" Exact model of `{}`, {n} joints, in {} form.", module.name, module.form.name()));
     } else {
         let (name, count) = (module.name, kept.len());
-        lines.push(if module.reduced.sparse.is_some() {
+        lines.push(if let Some(dropped) = &module.reduced.dropped {
+            format!(
+                " Reduced model of `{name}`, {n} joints, in {} form: the exact one of an arm that differs in its base \
+                 parameters and is without {}.",
+                module.form.name(),
+                listed(&dropped.parameters)
+            )
+        } else if module.reduced.sparse.is_some() {
             format!(
                 " Reduced model of `{name}`, {n} joints: {count} functions, where the exact model has {p}."
             )
@@ -55,7 +62,7 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     if let Some(line) = taken(sines) {
         lines.extend([line, String::new()]);
     }
-    if !kept.is_empty() {
+    if !module.reduced.is_exact() {
         lines.push(format!(" The exact model costs {}: {}", cost(&exact), verdict(&operations, &exact)));
         lines.push(String::new());
         if let Some(known) = module.torque {
@@ -83,6 +90,11 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     }
     lines.extend(uncertain(module));
     lines
+}
+
+/// What is left out; where nothing is, parameters were made equal.
+fn listed(parameters: &[String]) -> String {
+    if parameters.is_empty() { "differences between some of them".to_string() } else { parameters.join(", ") }
 }
 
 /// Whether uncertain numbers move coefficients of a model that does not follow them.

@@ -85,7 +85,14 @@ impl Sparse {
         let mut selected: Vec<usize> = combinations.iter().flatten().map(|&(l, _)| l).collect();
         selected.sort_unstable();
         selected.dedup();
-        Reduced { selected, combinations, simplified, variations: Vec::new(), sparse: Some(self), dropped: None }
+        Reduced {
+            selected,
+            combinations,
+            simplified,
+            variations: Vec::new(),
+            sparse: Some(self),
+            dropped: None,
+        }
     }
 
     /// The place of ψ_l among the functions, which it joins if it is new.

@@ -9,7 +9,8 @@ use rayon::prelude::*;
 use crate::arm::Arm;
 use crate::body::{self, Form};
 use crate::bounds::{
-    Certificate, Effort, Rates, certified_beside, reach, separate_error, torque_exceeds, workspace_peak_torque,
+    Certificate, Effort, Rates, certified_beside, reach, separate_error, torque_exceeds,
+    workspace_peak_torque,
 };
 use crate::graph::Graph;
 use crate::lagrangian::{Combination, Lagrangian, evaluate};
@@ -88,9 +89,7 @@ impl Candidate {
         match self {
             Self::Sparse(choice) => Some(choice),
             Self::Recursive(member) => {
-                let reduced = member.reduced(lagrangian, reach);
-                if std::env::var("GF_DEBUG").is_ok() { eprintln!("try price {} error {} some {}", member.code.operations().price(), member.error, reduced.is_some()); }
-                let reduced = reduced?;
+                let reduced = member.reduced(lagrangian, reach)?;
                 Some(Choice { reduced, form: Form::Recursive, code: member.code })
             }
         }
@@ -138,7 +137,9 @@ pub fn cheapest(ask: &Ask, fraction: f64) -> Choice {
     let points = points(domain, &everywhere);
     let (sparse, recursive) = rayon::join(
         || match lagrangian.terms() {
-            0..=LONG => reduction::family(&Problem { lagrangian, shares: &shares, points: &points }, fraction),
+            0..=LONG => {
+                reduction::family(&Problem { lagrangian, shares: &shares, points: &points }, fraction)
+            }
             _ => Vec::new(),
         },
         || {
@@ -178,7 +179,6 @@ pub fn cheapest(ask: &Ask, fraction: f64) -> Choice {
             let part = separate.iter().zip(&limits).map(|(e, limit)| e / limit).fold(0.0, f64::max);
             let exceeds =
                 || torque_exceeds(lagrangian, reduced, domain, motion, &certificates, &scale.rates, &limits);
-            if std::env::var("GF_DEBUG").is_ok() { eprintln!("  part {part} seen {} max rounding {:?}", seen(lagrangian, reduced, &shares, &everywhere), reduced.dropped.as_ref().map(|d| d.rounding.iter().fold(0.0_f64, |a,&b| a.max(b)))); }
             let hopeful = matches!(domain, Domain::Workspace(_)) || part <= HOPELESS;
             part <= 1.0 || hopeful && exceeds().is_none()
         })

@@ -28,12 +28,24 @@ pub(crate) fn cost(arm: &Arm, plan: &Plan) -> usize {
     Candidate::new(arm, plan.choices.clone(), plan.units).cost
 }
 
-/// As [`recursive`], where the descent begins from the cheapest of some plans; also where it ends.
+/// As [`recursive`], where the descent begins from some other plans, too; also where the best one ends.
 pub(crate) fn planned(arm: &Arm, plans: &[Plan]) -> (Graph, Plan) {
-    let mut best = Candidate::new(arm, vec![Choice::default(); arm.dof()], METRES);
-    for plan in plans {
-        best.take_cheaper(Candidate::new(arm, plan.choices.clone(), plan.units));
-    }
+    let plain = descended(arm, Candidate::new(arm, vec![Choice::default(); arm.dof()], METRES));
+    let mut best = plans.iter().fold(plain, |mut best, plan| {
+        best.take_cheaper(descended(arm, Candidate::new(arm, plan.choices.clone(), plan.units)));
+        best
+    });
+    let graph = if best.cost == usize::MAX {
+        // Its numbers leave no room for moving parameters; they stay where they are.
+        build(arm, &best.choices, &METRES, true)
+    } else {
+        build(&based(arm, &best.choices), &best.choices, &best.units, true).factored()
+    };
+    (graph, Plan { choices: std::mem::take(&mut best.choices), units: best.units })
+}
+
+/// The end of the descent from `best`.
+fn descended(arm: &Arm, mut best: Candidate) -> Candidate {
     for _ in 0..SWEEPS {
         let before = best.cost;
         for j in 0..arm.dof() {
@@ -59,13 +71,7 @@ pub(crate) fn planned(arm: &Arm, plans: &[Plan]) -> (Graph, Plan) {
             break;
         }
     }
-    let graph = if best.cost == usize::MAX {
-        // Its numbers leave no room for moving parameters; they stay where they are.
-        build(arm, &best.choices, &METRES, true)
-    } else {
-        build(&based(arm, &best.choices), &best.choices, &best.units, true).factored()
-    };
-    (graph, Plan { choices: best.choices, units: best.units })
+    best
 }
 
 const SWEEPS: usize = 6;

@@ -18,16 +18,17 @@ const LAST: f64 = 0.5;
 /// Moves whose error is above the level by no more than this factor are refitted.
 const NEARLY: f64 = 2.5;
 /// Moves that are looked at closely at a step, the most promising first.
-const TRIED: usize = 16;
+const TRIED: usize = 40;
 /// Of these, so many are refitted.
-const REFITTED: usize = 4;
+const REFITTED: usize = 2;
 
 struct Descent<'a> {
     table: &'a Table,
     arm: &'a Arm,
     parameters: &'a [Inertial],
     refits: bool,
-    plan: Plan,
+    /// That of the whole arm and the last.
+    plans: Vec<Plan>,
     kept: Kept,
 }
 
@@ -50,7 +51,7 @@ pub(super) fn members(
     }
     let kept = Kept { groups, theta: table.own.clone() };
     let plan = planned(arm, &[]).1;
-    let mut descent = Descent { table, arm, parameters, refits, plan, kept };
+    let mut descent = Descent { table, arm, parameters, refits, plans: vec![plan], kept };
     let mut out: Vec<Member> = Vec::new();
     let mut cheapest = usize::MAX;
     let mut level = FIRST;
@@ -65,12 +66,10 @@ pub(super) fn members(
             descent.kept.theta = descent.kept.refitted(table).0;
         }
         let arm = descent.with(&descent.kept.theta);
-        let (code, plan) = planned(&arm, &[descent.plan.clone()]);
-        descent.plan = plan;
+        let (code, plan) = planned(&arm, &descent.plans);
+        descent.plans.truncate(1);
+        descent.plans.push(plan);
         let price = code.operations().price();
-        if std::env::var("GF_DEBUG").is_ok() {
-            eprintln!("level {level:.5} refits {refits} price {price} error {:.5} groups {:?}", table.error(&descent.kept.theta), descent.kept.groups.iter().map(|g| g.iter().map(|&p| parameters[p].describe(&arm)).collect::<Vec<_>>().join("=")).collect::<Vec<_>>());
-        }
         if price < cheapest {
             cheapest = price;
             let lost = |p: &usize| table.own[*p] != 0.0 && !descent.kept.groups.iter().any(|g| g.contains(p));
@@ -92,19 +91,27 @@ fn alike(table: &Table, parameters: &[Inertial], p: usize, q: usize) -> bool {
 impl Descent<'_> {
     /// Takes the most promising move that is admitted; false where none is.
     fn step(&mut self, level: f64) -> bool {
-        let now = cost(&self.with(&self.kept.theta), &self.plan);
+        let now = self.cost(&self.kept.theta);
         let mut found: Vec<(f64, Kept)> = moves(&self.kept, self.parameters, self.arm.dof())
             .into_par_iter()
             .filter_map(|groups| {
                 let mut next = Kept { groups, theta: Vec::new() };
-                let start = next.start(&self.kept.theta);
-                // By the structure alone: what a refit makes of equal numbers is seen at the end of the level.
-                let saved = now.checked_sub(cost(&self.with(&start), &self.plan)).filter(|&saved| saved > 0)?;
-                next.theta = if self.refits {
-                    next.near(self.table, &self.kept.theta)?
-                } else {
-                    start
+                let rotor = |group: &Vec<usize>| {
+                    group.iter().any(|&p| self.parameters[p].quantity == Quantity::Armature)
                 };
+                next.theta = next.near(self.table, &self.kept.theta, |group| self.refits || rotor(group))?;
+                let most = if self.refits { NEARLY * level } else { level };
+                if self.least(&next.theta) > most {
+                    return None;
+                }
+                // By the structure alone: what a refit makes of equal numbers is seen at the end of the level.
+                let mut structure = next.start(&self.kept.theta);
+                for (plain, fitted) in
+                    structure.iter_mut().zip(&next.theta).filter(|(plain, _)| **plain == 0.0)
+                {
+                    *plain = *fitted;
+                }
+                let saved = now.checked_sub(self.cost(&structure)).filter(|&saved| saved > 0)?;
                 Some((saved as f64 / self.burden(&next.theta).max(1e-12), next))
             })
             .collect();
@@ -137,12 +144,22 @@ impl Descent<'_> {
         }
     }
 
+    /// What the recursion costs by the cheapest of the plans.
+    fn cost(&self, theta: &[f64]) -> usize {
+        let arm = self.with(theta);
+        self.plans.iter().map(|plan| cost(&arm, plan)).min().unwrap_or(usize::MAX)
+    }
+
     /// Root of the squares by which the model moves.
     fn burden(&self, theta: &[f64]) -> f64 {
-        let off: Vec<f64> = theta.iter().zip(&self.kept.theta).map(|(new, old)| new - old).collect();
-        let row = |g: &Vec<f64>| g.iter().zip(&off).fold(0.0, |sum, (g, o)| sum + g * o);
-        let square = self.table.gram.iter().zip(&off).fold(0.0, |sum, (g, o)| sum + o * row(g));
-        libm::sqrt(square.max(0.0))
+        self.table.distance(theta, &self.kept.theta)
+    }
+
+    /// The largest error is no smaller: a sum of absolute values is at least the root of the sum of their squares, and
+    /// the largest at least the mean.
+    fn least(&self, theta: &[f64]) -> f64 {
+        let sums = self.table.points * self.table.shares.len();
+        self.table.distance(theta, &self.table.own) / libm::sqrt(sums.max(1) as f64)
     }
 
     /// The arm with those values: its own bodies and what they differ by, so that what the recursion may gather on a

@@ -17,6 +17,9 @@ use crate::lagrangian::{Lagrangian, expand};
 use crate::reduction::{Reduced, without};
 use table::Table;
 
+/// Coefficients times parameters beyond which nothing is refitted: it would take minutes.
+const REFITTED: usize = 3000;
+
 /// What the models must be good for.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Problem<'a> {
@@ -52,10 +55,9 @@ pub(super) fn family(problem: &Problem, most: f64) -> Vec<Member> {
     let counts = |p: &Inertial| p.quantity == Quantity::Armature || regrouped.inertial(*p) != 0.0;
     let parameters: Vec<Inertial> = (0..regrouped.dof()).flat_map(Inertial::of).filter(counts).collect();
     let table = Table::new(problem, &regrouped, &parameters);
-    let (refitted, plain) = rayon::join(
-        || descent::members(&table, problem.arm, &parameters, most, true),
-        || descent::members(&table, problem.arm, &parameters, most, false),
-    );
+    let descent = |refits| descent::members(&table, problem.arm, &parameters, most, refits);
+    let short = table.coefficients * parameters.len() <= REFITTED;
+    let (refitted, plain) = rayon::join(|| if short { descent(true) } else { Vec::new() }, || descent(false));
     refitted.into_iter().chain(plain).collect()
 }
 

@@ -6,9 +6,8 @@ use crate::arm::{Inertial, Quantity};
 /// Every simpler choice of groups: a parameter of one joint less, or several together, with or without a rotor inertia
 /// in their place; or two second moments made equal, so that the body is round.
 pub(super) fn moves(kept: &Kept, parameters: &[Inertial], joints: usize) -> Vec<Vec<Vec<usize>>> {
-    let place = |joint: usize, quantity: Quantity| {
-        parameters.iter().position(|p| *p == Inertial { joint, quantity })
-    };
+    let place =
+        |joint: usize, quantity: Quantity| parameters.iter().position(|p| *p == Inertial { joint, quantity });
     let alive = |p: &usize| kept.groups.iter().any(|group| group.contains(p));
     let mut out: Vec<Vec<Vec<usize>>> = Vec::new();
     let mut add = |groups: Vec<Vec<usize>>| {
@@ -31,13 +30,17 @@ pub(super) fn moves(kept: &Kept, parameters: &[Inertial], joints: usize) -> Vec<
         let second: Vec<usize> = diagonal.iter().chain(&cross).copied().collect();
         let body: Vec<usize> = of(&[Mass]).into_iter().chain(first.iter().chain(&second).copied()).collect();
         let single: Vec<Vec<usize>> = body.iter().copied().chain(of(&[Armature])).map(|p| vec![p]).collect();
-        let pairs = [First(0), First(1), First(2)].iter().flat_map(|&a| {
-            [Second(0, 1), Second(0, 2), Second(1, 2)].map(|b| of(&[a, b]))
-        });
+        let pairs = [First(0), First(1), First(2)]
+            .iter()
+            .flat_map(|&a| [Second(0, 1), Second(0, 2), Second(1, 2)].map(|b| of(&[a, b])));
         let skew = [[(0, 1), (0, 2)], [(0, 1), (1, 2)], [(0, 2), (1, 2)]];
         let skew = skew.iter().map(|pair| of(&pair.map(|(i, j)| Second(i, j))));
-        let sets: Vec<Vec<usize>> =
-            single.into_iter().chain(pairs).chain(skew).chain([first, cross.clone(), diagonal, second, body]).collect();
+        let sets: Vec<Vec<usize>> = single
+            .into_iter()
+            .chain(pairs)
+            .chain(skew)
+            .chain([first, cross.clone(), diagonal, second, body])
+            .collect();
         let armature = place(joint, Armature).filter(|p| !alive(p));
         for lost in sets.iter().filter(|set| !set.is_empty()) {
             add(without(lost));

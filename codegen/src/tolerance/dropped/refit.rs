@@ -8,7 +8,7 @@ use super::table::{Table, largest};
 use crate::reduction::{solved, uniform};
 
 /// Rounds at most.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 4;
 /// Sums taken in at each.
 const ROWS: usize = 60;
 /// Of the first round.
@@ -32,19 +32,26 @@ pub(super) struct Kept {
 }
 
 impl Kept {
-    /// The same groups with the values that change the model least from `target`, by least squares.
-    pub fn near(&self, table: &Table, target: &[f64]) -> Option<Vec<f64>> {
+    /// The same groups with the values that change the model least from `target`, by least squares over the groups that
+    /// are `free`.
+    pub fn near(
+        &self,
+        table: &Table,
+        target: &[f64],
+        free: impl Fn(&Vec<usize>) -> bool,
+    ) -> Option<Vec<f64>> {
+        let groups: Vec<&Vec<usize>> = self.groups.iter().filter(|group| free(group)).collect();
         let sum = |a: &[usize], b: &[usize]| {
             a.iter().flat_map(|&p| b.iter().map(move |&q| (p, q))).fold(0.0, |s, (p, q)| s + table.gram[p][q])
         };
         let start = self.start(target);
         let off: Vec<f64> = target.iter().zip(&start).map(|(t, s)| t - s).collect();
         let mut matrix: Vec<Vec<f64>> =
-            self.groups.iter().map(|a| self.groups.iter().map(|b| sum(a, b)).collect()).collect();
-        let along = |group: &Vec<usize>| {
-            group.iter().fold(0.0, |s, &p| {
-                s + table.gram[p].iter().zip(&off).fold(0.0, |s, (g, o)| s + g * o)
-            })
+            groups.iter().map(|a| groups.iter().map(|b| sum(a, b)).collect()).collect();
+        let along = |group: &&Vec<usize>| {
+            group
+                .iter()
+                .fold(0.0, |s, &p| s + table.gram[p].iter().zip(&off).fold(0.0, |s, (g, o)| s + g * o))
         };
         // Scaled to a diagonal of 1: parameters have many units.
         let scales: Vec<f64> = (0..matrix.len())
@@ -56,10 +63,10 @@ impl Kept {
             }
             row[i] = 1.0 + RIDGE;
         }
-        let right: Vec<f64> = self.groups.iter().zip(&scales).map(|(group, scale)| scale * along(group)).collect();
+        let right: Vec<f64> = groups.iter().zip(&scales).map(|(group, scale)| scale * along(group)).collect();
         let step = solved(matrix, &right)?;
         let mut theta = start;
-        for ((group, step), scale) in self.groups.iter().zip(step).zip(&scales) {
+        for ((group, step), scale) in groups.iter().zip(step).zip(&scales) {
             group.iter().for_each(|&p| theta[p] += scale * step);
         }
         Some(theta)
@@ -126,7 +133,8 @@ impl Kept {
             .iter()
             .map(|&(m, share)| (from + m, if residuals[from + m] < 0.0 { -share } else { share }))
             .collect();
-        let along = |p: usize| signed.iter().fold(0.0, |sum, &(at, share)| sum + share * table.effects[p][at]);
+        let along =
+            |p: usize| signed.iter().fold(0.0, |sum, &(at, share)| sum + share * table.effects[p][at]);
         let row: Vec<f64> =
             self.groups.iter().map(|group| group.iter().fold(0.0, |sum, &p| sum + along(p))).collect();
         let here = signed.iter().fold(0.0, |sum, &(at, share)| sum + share * residuals[at]);

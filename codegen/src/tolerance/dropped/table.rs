@@ -19,6 +19,8 @@ pub(super) struct Table {
     pub shares: Vec<Vec<(usize, f64)>>,
     /// Scalar products of the effects, each coefficient weighed by its shares.
     pub gram: Vec<Vec<f64>>,
+    /// Number of points.
+    pub points: usize,
     /// The largest error that a change by 1 makes, by parameter.
     pub sizes: Vec<f64>,
 }
@@ -48,7 +50,8 @@ impl Table {
         };
         let gram = effects.par_iter().map(|a| effects.iter().map(|b| product(a, b)).collect()).collect();
         let own = parameters.iter().map(|&p| arm.inertial(p)).collect();
-        let mut table = Self { own, effects, coefficients, shares, gram, sizes: Vec::new() };
+        let points = problem.points.len();
+        let mut table = Self { own, effects, coefficients, shares, gram, points, sizes: Vec::new() };
         table.sizes = table.effects.par_iter().map(|effect| largest(&table.errors_of(effect))).collect();
         table
     }
@@ -74,6 +77,14 @@ impl Table {
             .chunks_exact(self.coefficients.max(1))
             .flat_map(|point| self.shares.iter().map(move |shares| joint(point, shares)))
             .collect()
+    }
+
+    /// Root of the squares, over joints and points, by which two choices of values differ.
+    pub fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
+        let off: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
+        let row = |g: &Vec<f64>| g.iter().zip(&off).fold(0.0, |sum, (g, o)| sum + g * o);
+        let square = self.gram.iter().zip(&off).fold(0.0, |sum, (g, o)| sum + o * row(g));
+        libm::sqrt(square.max(0.0))
     }
 
     /// The largest torque error with other values of the parameters.
