@@ -1,14 +1,14 @@
 //! All stages in order: from a checked specification to a model, its bounds, its controller and its code.
 
+mod left;
 mod model;
+mod verdict;
 
 use std::path::Path;
 
 use crate::arm::{Arm, Built, JointKind, Uncertainty, indefinite, indefinite_among};
 use crate::body::{self, Form, Regressor};
-use crate::bounds::{
-    Bounds, Certificate, Effort, Torque, certified_telling, reach, recursion, torque_error, with_sines,
-};
+use crate::bounds::{Bounds, Certificate, Effort, Torque, reach};
 use crate::check::{examine, vector};
 use crate::design::{Design, Problem, checked, design};
 use crate::dynamics::mass_matrix;
@@ -24,15 +24,12 @@ use crate::reduction::{self, Reduced, Regression};
 use crate::sines::Sines;
 use crate::spec::{LawSpec, MeasureSpec, RefitSpec, Spec};
 use crate::tolerance::Scale;
+use left::Left;
 pub(crate) use model::dictionary;
 use model::{Ask, Model, check_count};
 
 /// Half-width of the tube where the specification names no measure, rad or m.
 pub(crate) const DEFAULT_TUBE: f64 = 0.05;
-
-/// Where the torque error is what counts, no single coefficient is worth more boxes and more starts of a search.
-const BOXES: usize = 2000;
-const STARTS: usize = 4;
 
 /// Positions of the domain at which D is looked at.
 const POSITIONS: usize = 512;
@@ -190,46 +187,27 @@ impl Generation {
             None => (None, reduced),
         };
         drop(stage);
-        let effort_here = match spec.model.tolerance() {
-            Some(_) => {
-                Effort { boxes: effort.boxes.min(BOXES), starts: effort.starts.min(STARTS), ..*effort }
-            }
-            None => *effort,
-        };
-        let certificates =
-            certified_telling(&lagrangian, &reduced, &domain, motion.as_ref(), &effort_here, progress);
-        let (certificates, mut bounds) = if form == Form::Recursive && !sines.rounds() {
+        if form == Form::Recursive && !sines.rounds() {
             // What coarse sines do is known of the plain recursion alone.
             code = body::plain(&arm);
-            recursive_bounds(&arm, &lagrangian, &reduced, certificates, &domain, motion.as_ref(), &sines)
-        } else {
-            let certificates =
-                with_sines(certificates, &lagrangian, &reduced, &domain, motion.as_ref(), &sines);
-            let bounds = Bounds::of(&lagrangian, &certificates);
-            (certificates, bounds)
+        }
+        let left = Left {
+            loaded: &loaded,
+            arm: &arm,
+            uncertainty: &uncertainty,
+            lagrangian: &lagrangian,
+            reduced: &reduced,
+            domain: &domain,
+            motion: motion.as_ref(),
+            form,
+            sines: &sines,
         };
+        let (certificates, mut bounds) = left.bounds(effort, progress);
         let stage = Stage::new(progress, "torque error", 1);
-        let torque = scale.map(|Scale { rates, peak }| {
-            if form == Form::Recursive {
-                return Torque { error: bounds.torque(&rates), peak };
-            }
-            let mut error =
-                torque_error(&lagrangian, &reduced, &domain, motion.as_ref(), &certificates, &rates);
-            if let (Some(fraction), true) = (spec.model.tolerance(), uncertainty.parameters.is_empty()) {
-                // The choice has proved as much, perhaps with more work, for sines within an ulp.
-                for (i, (error, peak)) in error.iter_mut().zip(&peak).enumerate() {
-                    let multipliers = rates.multipliers(&lagrangian, i);
-                    let sines: f64 = certificates.iter().zip(&multipliers).map(|(c, u)| c.sines * u).sum();
-                    let proved = fraction * peak;
-                    let proved = if sines == 0.0 { proved } else { (proved + sines).next_up() };
-                    *error = error.min(proved);
-                }
-            }
-            Torque { error, peak }
-        });
+        let torque = scale.map(|scale| left.torque(&certificates, &bounds, scale));
         drop(stage);
         let mut warnings = warnings;
-        warnings.extend(model::wider(&loaded, torque.as_ref(), &uncertainty));
+        warnings.extend(torque.as_ref().and_then(|torque| left.beyond_tolerance(torque)));
         if !uncertainty.viscous.is_empty() {
             bounds.b.clone_from(&uncertainty.viscous);
         }
@@ -305,6 +283,7 @@ impl Generation {
             reduced: &self.reduced,
             bounds: &self.bounds,
             torque: self.torque.as_ref(),
+            verdict: &self.verdict(),
             domain: &self.domain,
             form: self.form,
             code: &self.code,
@@ -314,30 +293,6 @@ impl Generation {
             design: self.design.as_ref(),
         })
     }
-}
-
-/// Bounds on the plain recursion with sines off by more than rounding: what they do to it, and what uncertain parameters
-/// do, which is what the `certificates` given say.
-fn recursive_bounds(
-    arm: &Arm,
-    lagrangian: &Lagrangian,
-    reduced: &Reduced,
-    certificates: Vec<Certificate>,
-    domain: &Domain,
-    motion: Option<&Motion>,
-    sines: &Sines,
-) -> (Vec<Certificate>, Bounds) {
-    // Only what a law learns is in expanded form.
-    let learnt = Reduced { combinations: vec![Vec::new(); reduced.combinations.len()], ..reduced.clone() };
-    let certificates = with_sines(certificates, lagrangian, &learnt, domain, motion, sines);
-    let own = recursion(arm, &reach(domain, motion), sines.error);
-    let bounds = Bounds::of(lagrangian, &certificates).plus(&own);
-    let add = |(mut certificate, more): (Certificate, Certificate)| {
-        certificate.bound = (certificate.bound + more.bound).next_up();
-        certificate.sines = (certificate.sines + more.bound).next_up();
-        certificate
-    };
-    (certificates.into_iter().zip(own.certificates(lagrangian)).map(add).collect(), bounds)
 }
 
 /// Faults where the domain holds angles for which the sines chosen promise nothing.

@@ -8,13 +8,15 @@ use std::path::{Path, PathBuf};
 use gramforge::Generation;
 use gramforge::body::recursive;
 use gramforge::bounds::{Effort, Rates};
+use gramforge::dynamics::inverse_dynamics;
 use gramforge::graph::Graph;
-use gramforge::lagrangian::expand;
+use gramforge::lagrangian::{Combination, evaluate, expand};
 use gramforge::load::{Loaded, load};
 use gramforge::measure::Domain;
 use gramforge::reduction::{Dictionary, products};
 use gramforge::spec::{DictionarySpec, MeasureSpec, ModelSpec};
 use gramforge::spread::{Spread, in_box};
+use gramforge::tolerance::why_exact;
 
 fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(name).with_extension("json")
@@ -48,6 +50,8 @@ struct Arena<'a> {
     rates: Rates,
     /// The exact code, of uncertain arms at every vertex of what is uncertain.
     exact: Vec<Graph>,
+    /// What is left of the coefficients that are simplified, with their bounds.
+    left: Vec<(Combination, f64)>,
 }
 
 /// A state: variables in the unit cube, the last one the time of a motion; bits say which rates are negative.
@@ -67,7 +71,11 @@ impl Arena<'_> {
         let vertices = uncertainty.vertices().map(|u| recursive(&uncertainty.at(arm, &u)));
         let exact =
             if uncertainty.is_empty() { vec![exact_code.clone()] } else { vertices.collect::<Vec<_>>() };
-        Arena { generation, rates, exact }
+        let left = |m: usize| {
+            (generation.reduced.residual(&generation.lagrangian, m), generation.certificates[m].bound)
+        };
+        let left = (0..generation.certificates.len()).filter(|&m| generation.reduced.simplified[m]).map(left);
+        Arena { generation, rates, exact, left: left.collect() }
     }
 
     fn position(&self, unit: &[f64]) -> Vec<f64> {
@@ -83,10 +91,16 @@ impl Arena<'_> {
         }
     }
 
-    /// |emitted − exact| by joint, as parts of what is certified.
+    /// |emitted − exact| by joint, as parts of what is certified; no coefficient is further off than its bound.
     fn parts(&self, state: &State) -> Vec<f64> {
         let n = self.generation.arm.dof();
         let q = self.position(&state.unit);
+        if !self.left.is_empty() {
+            let psi = self.generation.lagrangian.evaluate_functions(&q);
+            for (terms, bound) in &self.left {
+                assert!(evaluate(terms, &psi).abs() <= *bound);
+            }
+        }
         let corner = |rate: &[f64], from: usize| -> Vec<f64> {
             let sign = |i: usize| if state.signs >> (from + i) & 1 == 1 { -1.0 } else { 1.0 };
             (0..n).map(|i| sign(i) * rate[i]).collect()
@@ -243,6 +257,58 @@ fn the_module_states_the_torque_error_and_whether_reducing_pays() {
     let text = within(&workspace(), 0.05).module().unwrap();
     assert!(text.contains("Certified torque error by joint: at most ("));
     assert!(text.contains("reducing pays here: the reduced one saves "));
+}
+
+#[test]
+fn an_exact_model_says_why_it_is_one() {
+    let strict = within(&workspace(), 0.003);
+    assert!(strict.verdict().starts_with("no reduced model is sought for tolerances below 0.31 %"));
+    assert!(strict.module().unwrap().contains(&strict.verdict()));
+    let lagrangian = &strict.lagrangian;
+    assert!(why_exact(lagrangian, Some(&[1.0; 3]), 0.1).contains("is cheaper than the exact one"));
+    assert!(why_exact(lagrangian, Some(&[1.0, 0.0, 1.0]), 0.1).contains("without torque"));
+    assert!(made(workspace(), ModelSpec::Exact).verdict().starts_with("this is the exact model"));
+}
+
+/// A tolerance is a part of the peak torque: were that too large, so were the error. The arm must reach it in a state
+/// within its limits.
+#[test]
+fn the_peak_torque_over_a_workspace_is_reached() {
+    let generation = made(workspace(), ModelSpec::Exact);
+    let (arm, peak) = (&generation.arm, &generation.torque.as_ref().unwrap().peak);
+    let rates = Rates::limits(arm).unwrap();
+    let limits = arm.joint_box();
+    let n = arm.dof();
+    let torque = |unit: &[f64], signs: usize| {
+        let corner = |rate: &[f64], from: usize| -> Vec<f64> {
+            (0..n).map(|i| if signs >> (from + i) & 1 == 1 { -rate[i] } else { rate[i] }).collect()
+        };
+        let (v, a) = (corner(&rates.speed, 0), corner(&rates.reference_acceleration, n));
+        inverse_dynamics(arm, &in_box(&limits, unit), &v, &a)
+    };
+    let spread = Spread::new(n);
+    for i in 0..n {
+        let state = |index: usize| (spread.point(index / 64), index % 64);
+        let all = (0..64 * 300).map(state);
+        let height = |(unit, signs): &(Vec<f64>, usize)| torque(unit, *signs)[i].abs();
+        let (mut unit, signs) = all.max_by(|a, b| height(a).total_cmp(&height(b))).unwrap();
+        let mut best = height(&(unit.clone(), signs));
+        let mut step = 0.1;
+        while step > 1e-4 {
+            let before = best;
+            for change in 0..2 * n {
+                let mut next = unit.clone();
+                let turn = if change % 2 == 0 { step } else { -step };
+                next[change / 2] = (next[change / 2] + turn).clamp(0.0, 1.0);
+                let there = height(&(next.clone(), signs));
+                if there > best {
+                    (best, unit) = (there, next);
+                }
+            }
+            step *= if best > before { 1.0 } else { 0.5 };
+        }
+        assert!(best > 0.99 * peak[i], "joint {}: {best} of {}", i + 1, peak[i]);
+    }
 }
 
 /// The report counts p = 17 where 13 functions are independent.

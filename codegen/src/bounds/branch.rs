@@ -1,12 +1,11 @@
 //! Best-first branch and bound: cells are halved until the largest upper bound is near the largest value found.
 
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 use std::rc::Rc;
 
 use super::ascent::{Summit, climb, search};
 use super::expansion::{Expander, Expansion};
 use super::polynomial::Scratch;
+use super::queue::Queue;
 use super::region::{Cell, Region};
 use super::residual::{Residual, narrow};
 use super::{Effort, LONG};
@@ -39,16 +38,12 @@ pub struct Proof {
 }
 
 /// A cell waiting to be halved, for the maximum of `sign`·f of one residual.
-#[derive(Clone, Debug)]
-pub(super) struct Waiting {
-    pub upper: f64,
-    /// Order of arrival, which settles ties.
-    pub number: usize,
-    pub residual: usize,
-    pub sign: f64,
-    pub split: usize,
-    pub cell: Cell,
-    pub expansion: Option<Rc<Expansion>>,
+struct Waiting {
+    residual: usize,
+    sign: f64,
+    split: usize,
+    cell: Cell,
+    expansion: Option<Rc<Expansion>>,
 }
 
 /// Bounds the largest |f| of all `residuals` over `domain` together. Where it stays below `floor`, half as much again
@@ -66,7 +61,7 @@ pub fn maximum(
         subjects: residuals.iter().map(subject).collect(),
         tolerance: effort.tolerance,
         floor,
-        heap: BinaryHeap::new(),
+        queue: Queue::new(),
         proof: Proof { found: Summit { height: -1.0, x: Vec::new() }, ..Proof::default() },
         spent: 0,
         scratch: Scratch::default(),
@@ -83,15 +78,15 @@ pub fn maximum(
     }
     let budget = effort.boxes * residuals.len().min(BUDGETS);
     let mut open = 0.0;
-    while let Some(top) = front.heap.pop() {
+    while let Some((upper, top)) = front.queue.pop() {
         // Where a cell has become a point, only rounding stands between the two bounds.
-        let done = top.upper <= front.near() || front.spent >= budget;
+        let done = upper <= front.near() || front.spent >= budget;
         if done || !divisible(&top.cell, top.split) {
-            open = top.upper;
+            open = upper;
             break;
         }
         for cell in halves(&top.cell, top.split) {
-            front.enter(top.residual, cell, top.sign, top.upper, top.expansion.clone());
+            front.enter(top.residual, cell, top.sign, upper, top.expansion.clone());
         }
     }
     let mut proof = front.proof;
@@ -120,12 +115,12 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// What is known so far: `proof.upper` covers the cells that were left alone, the heap holds the others.
+/// What is known so far: `proof.upper` covers the cells that were left alone, the queue holds the others.
 struct Front<'a> {
     subjects: Vec<Subject<'a>>,
     tolerance: f64,
     floor: f64,
-    heap: BinaryHeap<Waiting>,
+    queue: Queue<Waiting>,
     proof: Proof,
     /// Boxes, as much as they cost.
     spent: usize,
@@ -189,16 +184,7 @@ impl Front<'_> {
         if upper <= self.near() {
             self.proof.upper = self.proof.upper.max(upper);
         } else {
-            let number = self.proof.boxes;
-            self.heap.push(Waiting {
-                upper,
-                number,
-                residual,
-                sign,
-                split: enclosure.split,
-                cell,
-                expansion,
-            });
+            self.queue.push(upper, Waiting { residual, sign, split: enclosure.split, cell, expansion });
         }
     }
 }
@@ -222,23 +208,3 @@ pub(super) fn halves(cell: &Cell, i: usize) -> [Cell; 2] {
     high.low[i] = middle;
     [low, high]
 }
-
-impl Ord for Waiting {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.upper.total_cmp(&other.upper).then_with(|| other.number.cmp(&self.number))
-    }
-}
-
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Waiting {}

@@ -15,6 +15,7 @@ mod grid;
 mod lattice;
 mod peak;
 mod polynomial;
+mod queue;
 mod recursion;
 mod region;
 mod residual;

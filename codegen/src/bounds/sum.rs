@@ -4,8 +4,38 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::grid::spread;
 use super::polynomial::Polynomial;
+use super::residual::Residual;
 use super::rounding::ENCLOSURE;
-use super::weighted::Part;
+
+/// One residual in the sum.
+pub(super) struct Part<'a> {
+    /// The residual at the vertices of the box of uncertain parameters; |r_m| is the largest of them.
+    pub vertices: &'a [Residual],
+    /// What it is multiplied by.
+    pub multiplier: f64,
+    /// It exceeds this nowhere.
+    pub cap: f64,
+}
+
+/// What branch and bound says of a sum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Range {
+    /// A value that the sum attains.
+    pub found: f64,
+    /// It exceeds this nowhere.
+    pub upper: f64,
+}
+
+/// Where to stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Stop {
+    /// Relative distance of the two values.
+    pub tolerance: f64,
+    /// Cells at most.
+    pub cells: usize,
+    /// It is settled once both values are on the same side of this.
+    pub limit: Option<f64>,
+}
 
 /// Σ_m Ū_m |r_m|, |r_m| the largest over the vertices of the box of uncertain parameters.
 pub(super) struct Sum {

@@ -1,11 +1,11 @@
 //! Enclosures against dense points.
 
-use super::Effort;
 use super::branch::{halves, maximum};
 use super::expansion::Expander;
 use super::polynomial::{Polynomial, Scratch};
 use super::region::{Cell, Region};
 use super::residual::Residual;
+use super::{Bounds, DIGITS, Effort};
 use crate::lagrangian::{Function, MAX_JOINTS};
 use crate::measure::Domain;
 use crate::motion::Motion;
@@ -210,5 +210,30 @@ fn an_expansion_is_near_the_residual_and_its_bounds_nearer_than_the_residual_s()
                 (residual.enclose(&frame, &jet, 1.0), expander.enclose(&expansion, &frame, 1.0));
             assert!(expanded.upper < direct.upper, "{} {}", expanded.upper, direct.upper);
         }
+    }
+}
+
+#[test]
+fn published_bounds_have_few_digits_and_never_lie_below() {
+    let spread = Spread::new(1);
+    let value = |index: usize| 10.0 * spread.point(index)[0] + 1e-7;
+    let row = |from: usize| (from..from + 3).map(value).collect::<Vec<f64>>();
+    let own = Bounds {
+        d: (0..3).map(|i| row(3 * i)).collect(),
+        h: (0..3).map(|i| (0..3).map(|j| row(9 + 9 * i + 3 * j)).collect()).collect(),
+        b: row(40),
+        g: row(50),
+    };
+    let all = |bounds: &Bounds| -> Vec<f64> {
+        let h = bounds.h.iter().flatten();
+        bounds.d.iter().chain(h).chain([&bounds.b, &bounds.g]).flatten().copied().collect()
+    };
+    let published = all(&own.clone().rounded_up());
+    assert_eq!(published.len(), 9 + 27 + 6);
+    for (own, published) in all(&own).into_iter().zip(published) {
+        assert!(own <= published && published <= own * (1.0 + 1e-5), "{own} {published}");
+        let mantissa = format!("{published:e}");
+        let digits = mantissa.split('e').next().map_or(0, |m| m.chars().filter(char::is_ascii_digit).count());
+        assert!(digits <= DIGITS, "{published}");
     }
 }

@@ -4,7 +4,8 @@ use rayon::prelude::*;
 
 use super::region::{Region, reach};
 use super::residual::Residual;
-use super::weighted::{Part, Stop, Weighted};
+use super::sum::{Part, Stop};
+use super::weighted::Weighted;
 use super::{Certificate, lattice, residuals, rounding};
 use crate::arm::{Arm, Uncertainty};
 use crate::dynamics::inverse_dynamics;

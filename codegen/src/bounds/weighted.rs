@@ -5,12 +5,14 @@
 //! single residuals would add up. Where uncertain parameters give |r_m| as the largest of several, the vertices of
 //! their box, the largest of their enclosures stands for it.
 
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::BTreeMap;
 
-use super::branch::{Waiting, divisible, halves};
+use super::branch::{divisible, halves};
 use super::polynomial::{Jet, Polynomial, Scratch};
+use super::queue::Queue;
 use super::region::{Cell, Frame, MAX_VARIABLES, Region};
 use super::residual::Residual;
+use super::sum::{Part, Range, Stop};
 use crate::lagrangian::{Function, MAX_JOINTS};
 use crate::measure::Domain;
 use crate::motion::Motion;
@@ -18,36 +20,6 @@ use crate::motion::Motion;
 /// A sign that may change costs twice what lies beyond it; above this fraction of the residual's own bound that
 /// bound serves better.
 const UNSURE: f64 = 0.5;
-
-/// One residual in the sum.
-pub(super) struct Part<'a> {
-    /// The residual at the vertices of the box of uncertain parameters; |r_m| is the largest of them.
-    pub vertices: &'a [Residual],
-    /// What it is multiplied by.
-    pub multiplier: f64,
-    /// It exceeds this nowhere.
-    pub cap: f64,
-}
-
-/// What branch and bound says of a sum.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Range {
-    /// A value that the sum attains.
-    pub found: f64,
-    /// It exceeds this nowhere.
-    pub upper: f64,
-}
-
-/// Where to stop.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Stop {
-    /// Relative distance of the two values.
-    pub tolerance: f64,
-    /// Cells.
-    pub cells: usize,
-    /// It is settled once both values are on the same side of this.
-    pub limit: Option<f64>,
-}
 
 /// Σ_m |r_m| Ū_m, and a residual whose derivatives' bounds hold for every choice of signs.
 pub(super) struct Weighted<'a> {
@@ -86,36 +58,21 @@ impl<'a> Weighted<'a> {
     /// Bounds the sum over `region`, which sees all joints, by best-first branch and bound.
     pub fn range(&self, region: &Region, stop: &Stop) -> Range {
         let mut scratch = Scratch::default();
-        let mut enter = |cell: Cell, number: usize, parent: f64| {
-            let (centre, upper, split) = self.enclose(region, &cell, &mut scratch);
-            (
-                centre,
-                Waiting {
-                    upper: upper.min(parent),
-                    number,
-                    residual: 0,
-                    sign: 1.0,
-                    split,
-                    cell,
-                    expansion: None,
-                },
-            )
-        };
-        let mut heap = BinaryHeap::new();
-        let (mut found, root) = enter(region.root, 0, f64::INFINITY);
-        heap.push(root);
+        let mut queue = Queue::new();
+        let (mut found, upper, split) = self.enclose(region, &region.root, &mut scratch);
+        queue.push(upper, (region.root, split));
         let mut count = 1;
-        while let Some(top) = heap.pop() {
-            let near = top.upper <= found * (1.0 + stop.tolerance);
-            let settled = stop.limit.is_some_and(|limit| top.upper <= limit || found > limit);
-            if near || settled || count >= stop.cells || !divisible(&top.cell, top.split) {
-                return Range { found, upper: top.upper };
+        while let Some((upper, (cell, split))) = queue.pop() {
+            let near = upper <= found * (1.0 + stop.tolerance);
+            let settled = stop.limit.is_some_and(|limit| upper <= limit || found > limit);
+            if near || settled || count >= stop.cells || !divisible(&cell, split) {
+                return Range { found, upper };
             }
-            for cell in halves(&top.cell, top.split) {
+            for half in halves(&cell, split) {
                 count += 1;
-                let (centre, waiting) = enter(cell, count, top.upper);
+                let (centre, most, split) = self.enclose(region, &half, &mut scratch);
                 found = found.max(centre);
-                heap.push(waiting);
+                queue.push(most.min(upper), (half, split));
             }
         }
         Range { found, upper: found }

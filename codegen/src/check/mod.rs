@@ -97,7 +97,7 @@ fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> 
             format!("write a number from {FINEST:e} to {COARSEST}, or \"polynomial\" in place of the table");
         faults.push("emit.trig.table.error", format!("is {error}"), mend);
     }
-    few_functions(spec, faults);
+    going_together(spec, faults);
     if let Some(duration) = spec.simulation.duration.filter(|v| *v <= 0.0) {
         faults.push("simulation.duration", format!("is {duration}"), "write a number above 0, in s");
     }
@@ -108,13 +108,14 @@ fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> 
 }
 
 /// What goes with certain models alone.
-fn few_functions(spec: &Spec, faults: &mut Faults) {
+fn going_together(spec: &Spec, faults: &mut Faults) {
     let chosen = spec.model.tolerance().is_some();
     let products = spec.dictionary != DictionarySpec::Harmonic && !chosen && spec.model != ModelSpec::Exact;
     if matches!(spec.emit.trig, TrigSpec::Table { .. }) && (chosen || products) {
         faults.push(
             "emit.trig",
-            "takes a table, which goes with `shared`, `separate` and `exact` models of the harmonic dictionary alone (without `model` it is `auto`)",
+            "takes a table, which goes with `shared`, `separate` and `exact` models of the harmonic dictionary alone \
+             (without `model` it is `auto`)",
             "write \"polynomial\" or \"libm\", or name such a `model`",
         );
     }
@@ -130,7 +131,8 @@ fn few_functions(spec: &Spec, faults: &mut Faults) {
     if adaptive && (chosen || products || apart) {
         faults.push(
             "control.law",
-            "is `adaptive`, which goes with `shared` and `exact` models of the harmonic dictionary alone (without `model` it is `auto`)",
+            "is `adaptive`, which goes with `shared` and `exact` models of the harmonic dictionary alone (without \
+             `model` it is `auto`)",
             "write `model` as {\"shared\": {\"functions\": N}} or \"exact\", or take law `report` or `tight`",
         );
     }

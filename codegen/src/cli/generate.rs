@@ -6,11 +6,10 @@ use std::sync::Arc;
 use clap::Args;
 use serde::Serialize;
 
-use super::inspect::exact_in_words;
 use super::progress::Bars;
 use super::{json, show_warnings};
 use crate::config::{Config, Output};
-use crate::emit::{torque_in_words, verdict};
+use crate::emit::torque_in_words;
 use crate::error::Error;
 use crate::graph::Operations;
 
@@ -73,12 +72,8 @@ impl Generate {
             (false, false) => "unchanged",
         };
         let Operations { mul, add, trig_pairs } = view.operations;
-        let error = match &output.generation.torque {
-            Some(torque) if !output.generation.reduced.selected.is_empty() => {
-                format!(" {}", torque_in_words(torque))
-            }
-            _ => String::new(),
-        };
+        let torque = output.generation.torque.as_ref();
+        let error = torque.map_or(String::new(), |torque| format!(" {}", torque_in_words(torque)));
         format!(
             "{}: {state}, {} bytes, {mul} mul, {add} add, {trig_pairs} sin-cos pairs; {}{error}\n",
             view.path, view.bytes, view.verdict
@@ -91,11 +86,7 @@ fn written(output: &Output) -> Written<'_> {
     let (operations, exact) = (generation.code.operations(), generation.exact_code.operations());
     let torque = generation.torque.as_ref();
     Written {
-        verdict: if generation.reduced.selected.is_empty() {
-            exact_in_words(generation)
-        } else {
-            verdict(&operations, &exact)
-        },
+        verdict: generation.verdict(),
         torque_error: torque.map(|torque| torque.error.as_slice()),
         peak_torque: torque.map(|torque| torque.peak.as_slice()),
         path: output.path.display().to_string(),

@@ -19,7 +19,6 @@ use crate::load::load;
 use crate::pipeline::Generation;
 use crate::progress::Stage;
 use crate::spec::MatrixSpec;
-use crate::tolerance::why_exact;
 
 /// Shows the expansion, the chosen functions, bounds, gains and operation counts of a specification.
 #[derive(Debug, Args)]
@@ -173,14 +172,5 @@ impl Inspect {
             view(&generation, size)
         });
         if self.json { json(&view) } else { Ok(text(&view, &generation)) }
-    }
-}
-
-/// What is said of a model that is the exact one.
-pub(super) fn exact_in_words(generation: &Generation) -> String {
-    let peak = generation.torque.as_ref().map(|torque| torque.peak.as_slice());
-    match generation.loaded.spec.model.tolerance() {
-        Some(fraction) => why_exact(&generation.lagrangian, peak, fraction),
-        None => "this is the exact model.".to_string(),
     }
 }

@@ -1,7 +1,6 @@
 //! Words in a module: the header and the model's documentation.
 
 use super::Module;
-use super::sines::up;
 use crate::bounds::{Torque, printed_down, printed_up};
 use crate::design::Guarantee;
 use crate::lagrangian::Lagrangian;
@@ -57,12 +56,16 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     if let Some(line) = taken(sines) {
         lines.extend([line, String::new()]);
     }
+    lines.push(if kept.is_empty() {
+        format!(" Verdict: {}", module.verdict)
+    } else {
+        format!(" The exact model costs {}: {}", cost(&exact), module.verdict)
+    });
+    lines.push(String::new());
+    if let Some(known) = module.torque {
+        lines.extend([format!(" {}", torque(known)), String::new()]);
+    }
     if !kept.is_empty() {
-        lines.push(format!(" The exact model costs {}: {}", cost(&exact), verdict(&operations, &exact)));
-        lines.push(String::new());
-        if let Some(known) = module.torque {
-            lines.extend([format!(" {}", torque(known)), String::new()]);
-        }
         lines.push(format!(
             " Domain of the bounds: {}. They are certified, rounding in f64 included; {}{}.",
             domain(module.domain),
@@ -138,9 +141,9 @@ fn taken(sines: &Sines) -> Option<String> {
             return Some(format!(" Sines and cosines: {way}; the bounds suppose errors within 1 ulp."));
         }
     };
-    let error = up(sines.error);
+    let error = printed_up(sines.error);
     Some(format!(
-        " Sines and cosines: {way}, off by at most {error:.3e} up to {:.0} rad.",
+        " Sines and cosines: {way}, off by at most {error} up to {:.0} rad.",
         libm::floor(sines.range)
     ))
 }
@@ -181,27 +184,6 @@ pub(crate) fn torque(torque: &Torque) -> String {
         torque.peak.iter().map(|&p| printed_down(p)).collect::<Vec<_>>().join(", "),
         printed_up(100.0 * torque.fraction())
     )
-}
-
-/// Whether reducing pays, in one sentence.
-pub(crate) fn verdict(reduced: &crate::graph::Operations, exact: &crate::graph::Operations) -> String {
-    let (mine, theirs) = (reduced.arithmetic(), exact.arithmetic());
-    // As the search compares them: a sine and cosine count, too.
-    if reduced.price() >= exact.price() {
-        format!(
-            "the exact one is not dearer ({theirs} operations and {} sine-cosine pairs against {mine} and {}), so reducing \
-             does not pay here.",
-            exact.trig_pairs, reduced.trig_pairs
-        )
-    } else if mine < theirs {
-        format!("reducing pays here: the reduced one saves {} of {theirs} operations.", theirs - mine)
-    } else {
-        let fewer = exact.trig_pairs.saturating_sub(reduced.trig_pairs);
-        format!(
-            "reducing pays here: the reduced one saves {fewer} of {} sine-cosine pairs.",
-            exact.trig_pairs
-        )
-    }
 }
 
 /// The domain in words.

@@ -8,7 +8,7 @@ mod regression;
 mod sines;
 mod statements;
 
-pub(crate) use docs::{domain as domain_in_words, functions, torque as torque_in_words, verdict};
+pub(crate) use docs::{domain as domain_in_words, functions, torque as torque_in_words};
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
@@ -43,6 +43,8 @@ pub struct Module<'a> {
     pub bounds: &'a Bounds,
     /// What that costs in torque, where the rates are known.
     pub torque: Option<&'a Torque>,
+    /// Whether reducing pays, in one sentence.
+    pub verdict: &'a str,
     /// Where the bounds hold.
     pub domain: &'a Domain,
     /// How the torque is computed.

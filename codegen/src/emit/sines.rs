@@ -5,6 +5,7 @@ use quote::quote;
 
 use super::literal::{count, float};
 use super::spaced;
+use crate::bounds::printed_up;
 use crate::error::Error;
 use crate::sines::{Kind, Sines};
 
@@ -30,17 +31,12 @@ pub(super) fn table(sines: &Sines) -> Result<TokenStream, Error> {
     let pairs = spaced(sines.pairs.iter().map(pair).collect::<Result<Vec<_>, _>>()?);
     let n = count(n);
     let doc = format!(
-        " Sines and cosines of one turn; interpolated, none is off by more than {:.3e}.",
-        up(sines.error)
+        " Sines and cosines of one turn; interpolated, none is off by more than {}.",
+        printed_up(sines.error)
     );
     Ok(quote! {
         #[doc = #doc]
         #[allow(clippy::approx_constant)]
         pub static SINES: ::gramforge_runtime::trig::Table<f64, #n> = ::gramforge_runtime::trig::Table::new(#pairs);
     })
-}
-
-/// At least `x` after rounding to four digits.
-pub(super) fn up(x: f64) -> f64 {
-    x + 5e-4 * x
 }

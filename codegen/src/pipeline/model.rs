@@ -1,12 +1,10 @@
 //! The model that a specification asks for, with its code.
 
-use crate::arm::{Arm, Uncertainty};
+use crate::arm::Arm;
 use crate::body::{self, Form};
-use crate::bounds::{Torque, printed_up};
 use crate::error::Faults;
 use crate::graph::Graph;
 use crate::lagrangian::Lagrangian;
-use crate::load::Loaded;
 use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::progress::Progress;
@@ -82,21 +80,6 @@ impl Ask<'_> {
             cheapest(&known, self.domain, self.motion, self.measure, scale, fraction, exact, progress);
         Model { reduced: choice.reduced, form: choice.form, code: choice.code }
     }
-}
-
-/// What is said where a tolerance, kept by the arm as specified, is not kept by all that it may be.
-pub(super) fn wider(loaded: &Loaded, torque: Option<&Torque>, uncertainty: &Uncertainty) -> Option<String> {
-    let (fraction, torque) = (loaded.spec.model.tolerance()?, torque?);
-    let more = !uncertainty.parameters.is_empty() && torque.fraction() > fraction;
-    more.then(|| {
-        format!(
-            "{}: model: the tolerance of {} % is kept by the arm as specified; over all that is uncertain the certified \
-             torque error is {} %",
-            loaded.path.display(),
-            100.0 * fraction,
-            printed_up(100.0 * torque.fraction())
-        )
-    })
 }
 
 /// Faults where more functions are asked for than there are.

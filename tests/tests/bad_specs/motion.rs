@@ -206,6 +206,14 @@ const CASES: &[Case] = &[
         &["is 0", "above 0 and below 1"],
     ),
     case(
+        "more functions than the dictionary has",
+        |i| {
+            i.set("/dictionary", json!("product")).set("/model/shared/functions", json!(999));
+        },
+        "model.shared.functions",
+        &["is 999", "the dictionary has", "write a number from 1 to"],
+    ),
+    case(
         "a dictionary for a model that has none",
         |i| {
             i.set("/dictionary", json!("product")).set("/model", json!({ "tolerance": { "torque": 0.01 } }));

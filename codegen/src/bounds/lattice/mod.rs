@@ -10,14 +10,14 @@
 #[cfg(test)]
 mod tests;
 
-use std::cmp::Ordering;
-use std::collections::{BTreeSet, BinaryHeap};
+use std::collections::BTreeSet;
 
+use crate::bounds::branch::{divisible, halves};
 use crate::bounds::grid::each_cell;
+use crate::bounds::queue::Queue;
 use crate::bounds::region::{Cell, MAX_VARIABLES};
 use crate::bounds::rounding::ENCLOSURE;
-use crate::bounds::sum::Sum;
-use crate::bounds::weighted::{Part, Range, Stop};
+use crate::bounds::sum::{Part, Range, Stop, Sum};
 
 /// Points of the first grid at most, and intervals of each of its sides.
 const POINTS: usize = 8_000;
@@ -50,9 +50,6 @@ pub(super) fn range(parts: &[Part], limits: &[[f64; 2]], stop: &Stop) -> Range {
 
 /// A cell that may hold more than is near enough.
 struct Waiting {
-    upper: f64,
-    /// Order of arrival, which settles ties.
-    number: usize,
     cell: Cell,
     /// B_j over the cell.
     curvature: [f64; MAX_VARIABLES],
@@ -70,8 +67,7 @@ struct Front {
     found: f64,
     /// Bound over all cells that do not wait.
     closed: f64,
-    heap: BinaryHeap<Waiting>,
-    entered: usize,
+    queue: Queue<Waiting>,
     stop: Stop,
 }
 
@@ -85,13 +81,14 @@ impl<'a> Search<'a> {
 
     /// Best-first branch and bound from the cells of a grid.
     fn run(&self, stop: &Stop) -> Range {
-        let mut front = Front { found: 0.0, closed: 0.0, heap: BinaryHeap::new(), entered: 0, stop: *stop };
+        let mut front = Front { found: 0.0, closed: 0.0, queue: Queue::new(), stop: *stop };
         self.first(&mut front);
         let mut halved = 0;
-        while let Some(top) = front.heap.pop() {
+        while let Some((upper, top)) = front.queue.pop() {
             let above = stop.limit.is_some_and(|limit| front.found > limit);
-            if top.upper <= front.near() || above || halved >= stop.cells || !self.halve(&top, &mut front) {
-                front.closed = front.closed.max(top.upper);
+            if upper <= front.near() || above || halved >= stop.cells || !self.halve(&top, upper, &mut front)
+            {
+                front.closed = front.closed.max(upper);
                 break;
             }
             halved += 1;
@@ -135,33 +132,28 @@ impl<'a> Search<'a> {
         });
     }
 
-    /// Halves the side along which the sum may bend most; false where that is a point.
-    fn halve(&self, top: &Waiting, front: &mut Front) -> bool {
+    /// Halves the side along which the sum may bend most, where it is `most` at most; false where that side is a point.
+    fn halve(&self, top: &Waiting, most: f64, front: &mut Front) -> bool {
         let joints = &self.sum.joints;
         let k = joints.len();
-        let Waiting { cell, curvature, .. } = top;
+        let Waiting { cell, curvature } = top;
         let bend = |slot: usize| excess(cell, slot, curvature[slot]);
         let split = (0..k).fold(0, |best, slot| if bend(slot) > bend(best) { slot } else { best });
-        let middle = 0.5 * (cell.low[split] + cell.high[split]);
-        if !(cell.low[split] < middle && middle < cell.high[split]) {
+        if !divisible(cell, split) {
             return false;
         }
+        let parts = halves(cell, split);
         let mut axes: Vec<Vec<f64>> = (0..k).map(|slot| vec![cell.low[slot], cell.high[slot]]).collect();
-        axes[split].insert(1, middle);
+        axes[split].insert(1, parts[0].high[split]);
         let sizes: Vec<usize> = axes.iter().map(Vec::len).collect();
         let values = self.sum.on_grid(joints, &axes);
         front.found = values.iter().fold(front.found, |most, &value| most.max(value));
         let mut corners = vec![0.0; 1 << k];
         each_cell(&sizes, |at, index| {
-            let mut half = *cell;
-            if at[split] == 0 {
-                half.high[split] = middle;
-            } else {
-                half.low[split] = middle;
-            }
+            let half = parts[at[split]];
             corners.iter_mut().enumerate().for_each(|(c, value)| *value = values[index(c)]);
             let upper = folded(&mut corners, &half, &curvature[..k]) * MORE + self.rounding;
-            front.enter(upper.min(top.upper), half, *curvature);
+            front.enter(upper.min(most), half, *curvature);
         });
         true
     }
@@ -200,8 +192,7 @@ impl Front {
         if upper <= self.near() {
             self.closed = self.closed.max(upper);
         } else {
-            self.entered += 1;
-            self.heap.push(Waiting { upper, number: self.entered, cell, curvature });
+            self.queue.push(upper, Waiting { cell, curvature });
         }
     }
 }
@@ -232,23 +223,3 @@ fn edge(a: f64, b: f64, e: f64) -> f64 {
     let half = 0.5 * (b - a).abs();
     if half >= 2.0 * e { a.max(b) } else { 0.5 * (a + b) + e + half * half / (4.0 * e) }
 }
-
-impl Ord for Waiting {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.upper.total_cmp(&other.upper).then_with(|| other.number.cmp(&self.number))
-    }
-}
-
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Waiting {}

@@ -2,11 +2,11 @@
 
 use super::{
     AdaptationView, BoundsView, ControlView, Costs, DomainView, EstimateView, GuaranteeView, Inspection,
-    RangeView, exact_in_words,
+    RangeView,
 };
 use crate::bounds::{Bounds, Effort, estimate, factor_bounds};
 use crate::design::Envelope;
-use crate::emit::{functions, verdict};
+use crate::emit::functions;
 use crate::measure::Domain;
 use crate::pipeline::{Generation, dictionary};
 use crate::spec::MatrixSpec;
@@ -76,13 +76,7 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
         peak_torque: generation.torque.as_ref().map(|torque| torque.peak.clone()),
         domain: domain_view(&generation.domain),
         form: generation.form.name(),
-        verdict: if reduced.selected.is_empty() {
-            exact_in_words(generation)
-        } else if !reduced.simplified.contains(&true) {
-            "no coefficient has more functions than are kept, so nothing was simplified.".to_string()
-        } else {
-            verdict(&operations.reduced, &operations.exact)
-        },
+        verdict: generation.verdict(),
         operations,
         size,
         control,

@@ -1,0 +1,109 @@
+//! What an emitted model leaves out: certificates, bounds, torque.
+
+use crate::arm::{Arm, Uncertainty};
+use crate::body::Form;
+use crate::bounds::{
+    Bounds, Certificate, Effort, Torque, certified_telling, printed_up, reach, recursion, torque_error,
+    with_sines,
+};
+use crate::lagrangian::Lagrangian;
+use crate::load::Loaded;
+use crate::measure::Domain;
+use crate::motion::Motion;
+use crate::progress::Progress;
+use crate::reduction::Reduced;
+use crate::sines::Sines;
+use crate::tolerance::Scale;
+
+/// Where the torque error is what counts, no single coefficient is worth more boxes and more starts of a search.
+const BOXES: usize = 2000;
+const STARTS: usize = 4;
+
+/// What bounds follow from.
+pub(super) struct Left<'a> {
+    pub loaded: &'a Loaded,
+    pub arm: &'a Arm,
+    pub uncertainty: &'a Uncertainty,
+    pub lagrangian: &'a Lagrangian,
+    pub reduced: &'a Reduced,
+    pub domain: &'a Domain,
+    pub motion: Option<&'a Motion>,
+    pub form: Form,
+    pub sines: &'a Sines,
+}
+
+impl Left<'_> {
+    /// A certificate for each coefficient, and the bounds that follow.
+    pub fn bounds(&self, effort: &Effort, progress: &dyn Progress) -> (Vec<Certificate>, Bounds) {
+        let Self { lagrangian, reduced, domain, motion, sines, .. } = *self;
+        let effort = match self.loaded.spec.model.tolerance() {
+            Some(_) => {
+                Effort { boxes: effort.boxes.min(BOXES), starts: effort.starts.min(STARTS), ..*effort }
+            }
+            None => *effort,
+        };
+        let certificates = certified_telling(lagrangian, reduced, domain, motion, &effort, progress);
+        if self.form == Form::Recursive && !sines.rounds() {
+            return self.recursive(certificates);
+        }
+        let certificates = with_sines(certificates, lagrangian, reduced, domain, motion, sines);
+        let bounds = Bounds::of(lagrangian, &certificates);
+        (certificates, bounds)
+    }
+
+    /// Those of the plain recursion with sines off by more than rounding: what they do to it, and what uncertain
+    /// parameters do, which is what the `certificates` given say.
+    fn recursive(&self, certificates: Vec<Certificate>) -> (Vec<Certificate>, Bounds) {
+        let Self { lagrangian, reduced, domain, motion, sines, .. } = *self;
+        // Only what a law learns is in expanded form.
+        let learnt =
+            Reduced { combinations: vec![Vec::new(); reduced.combinations.len()], ..reduced.clone() };
+        let certificates = with_sines(certificates, lagrangian, &learnt, domain, motion, sines);
+        let own = recursion(self.arm, &reach(domain, motion), sines.error);
+        let bounds = Bounds::of(lagrangian, &certificates).plus(&own);
+        let add = |(mut certificate, more): (Certificate, Certificate)| {
+            certificate.bound = (certificate.bound + more.bound).next_up();
+            certificate.sines = (certificate.sines + more.bound).next_up();
+            certificate
+        };
+        (certificates.into_iter().zip(own.certificates(lagrangian)).map(add).collect(), bounds)
+    }
+
+    /// What that costs in torque.
+    pub fn torque(&self, certificates: &[Certificate], bounds: &Bounds, scale: Scale) -> Torque {
+        let Self { lagrangian, reduced, domain, motion, .. } = *self;
+        let Scale { rates, peak } = scale;
+        if self.form == Form::Recursive {
+            return Torque { error: bounds.torque(&rates), peak };
+        }
+        let mut error = torque_error(lagrangian, reduced, domain, motion, certificates, &rates);
+        if let (Some(fraction), true) =
+            (self.loaded.spec.model.tolerance(), self.uncertainty.parameters.is_empty())
+        {
+            // The choice has proved as much, perhaps with more work, for sines within an ulp.
+            for (i, (error, peak)) in error.iter_mut().zip(&peak).enumerate() {
+                let multipliers = rates.multipliers(lagrangian, i);
+                let sines: f64 = certificates.iter().zip(&multipliers).map(|(c, u)| c.sines * u).sum();
+                let proved = fraction * peak;
+                let proved = if sines == 0.0 { proved } else { (proved + sines).next_up() };
+                *error = error.min(proved);
+            }
+        }
+        Torque { error, peak }
+    }
+
+    /// What is said where a tolerance, kept by the arm as specified, is not kept by all that it may be.
+    pub fn beyond_tolerance(&self, torque: &Torque) -> Option<String> {
+        let fraction = self.loaded.spec.model.tolerance()?;
+        let more = !self.uncertainty.parameters.is_empty() && torque.fraction() > fraction;
+        more.then(|| {
+            format!(
+                "{}: model: the tolerance of {} % is kept by the arm as specified; over all that is uncertain the \
+                 certified torque error is {} %",
+                self.loaded.path.display(),
+                100.0 * fraction,
+                printed_up(100.0 * torque.fraction())
+            )
+        })
+    }
+}

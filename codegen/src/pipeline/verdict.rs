@@ -1,0 +1,43 @@
+//! Whether reducing pays.
+
+use super::Generation;
+use crate::graph::Operations;
+use crate::tolerance::why_exact;
+
+impl Generation {
+    /// Whether reducing pays, in one sentence; of an exact model, why it is one.
+    ///
+    /// Costs are compared as the search for a model compares them, by [`Operations::price`].
+    pub fn verdict(&self) -> String {
+        if self.reduced.selected.is_empty() {
+            let peak = self.torque.as_ref().map(|torque| torque.peak.as_slice());
+            return match self.loaded.spec.model.tolerance() {
+                Some(fraction) => why_exact(&self.lagrangian, peak, fraction),
+                None => "this is the exact model.".to_string(),
+            };
+        }
+        if !self.reduced.simplified.contains(&true) {
+            return "no coefficient has more functions than are kept, so nothing was simplified.".to_string();
+        }
+        compared(&self.code.operations(), &self.exact_code.operations())
+    }
+}
+
+fn compared(reduced: &Operations, exact: &Operations) -> String {
+    let (mine, theirs) = (reduced.arithmetic(), exact.arithmetic());
+    if reduced.price() >= exact.price() {
+        format!(
+            "the exact one is not dearer ({theirs} operations and {} sine-cosine pairs against {mine} and {}), so reducing \
+             does not pay here.",
+            exact.trig_pairs, reduced.trig_pairs
+        )
+    } else if mine < theirs {
+        format!("reducing pays here: the reduced one saves {} of {theirs} operations.", theirs - mine)
+    } else {
+        let fewer = exact.trig_pairs.saturating_sub(reduced.trig_pairs);
+        format!(
+            "reducing pays here: the reduced one saves {fewer} of {} sine-cosine pairs.",
+            exact.trig_pairs
+        )
+    }
+}
