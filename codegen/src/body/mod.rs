@@ -6,6 +6,7 @@ mod harmonics;
 mod plain;
 mod recursive;
 mod regressor;
+mod relative;
 mod sparse;
 #[cfg(test)]
 mod tests;

@@ -2,24 +2,30 @@
 
 use std::collections::BTreeSet;
 
-use super::expanded::{signed, velocity_product};
+use super::expanded::signed;
 use super::factors::{cofactor, common_factors};
 use super::harmonics::Harmonics;
+use super::relative::RelativeTo;
 use crate::graph::{Builder, Expr, Graph, Variable};
 use crate::lagrangian::Lagrangian;
 use crate::reduction::{Candidate, Group, Rate, Sparse, Term, Turned, columns, grouped, rates, summed};
 
-/// τ_i = Σ α_g R_gi over the groups g, where R_gi sums what multiplies the group's coefficients in row i.
+/// τ_i = Σ α_g R_gi over the groups g, where R_gi sums what multiplies the group's coefficients in row i; rows and rates
+/// of a model in absolute angles are those of the links.
 pub fn sparse(lagrangian: &Lagrangian, model: &Sparse) -> Graph {
     let builder = Builder::new();
     let mut harmonics = Harmonics::new(&builder);
     let factors = common_factors(model);
-    let plan = Plan::new(lagrangian, model);
+    let written = model.written_in(lagrangian);
+    let plan = Plan::new(written, model);
+    let onto = model.absolute.as_ref().map(|absolute| absolute.coordinates.onto.as_slice());
+    let motion = RelativeTo { builder: &builder, onto };
     let mut rows: Vec<Vec<Expr>> = vec![Vec::new(); lagrangian.dof];
     for ((group, factor), row_sums) in model.groups.iter().zip(factors).zip(&plan.sums) {
         // A sum of negative terms alone would end in a negation.
         let minus = group.terms.iter().all(|&(_, k)| k < 0.0);
-        let first = group.members.first().map_or(String::new(), |&(m, _)| lagrangian.coefficients[m].name());
+        let first = group.members.first().map_or(String::new(), |&(m, _)| written.coefficients[m].name());
+        let first = motion.name(first);
         let name = if minus { format!("minus_{first}") } else { first };
         let (mut apart, mut within) = (Vec::new(), Vec::new());
         for &(f, k) in &group.terms {
@@ -36,16 +42,16 @@ pub fn sparse(lagrangian: &Lagrangian, model: &Sparse) -> Graph {
         let value = if value.is_constant() { value } else { value.named(&name, true) };
         for (row, sum) in rows.iter_mut().zip(row_sums) {
             let Some((terms, sign)) = sum else { continue };
-            row.push(signed(minus != (*sign < 0), value * plan.rate(&builder, terms)));
+            row.push(signed(minus != (*sign < 0), value * plan.rate(&motion, terms)));
         }
     }
-    let outputs: Vec<_> = (1..)
-        .zip(rows)
-        .map(|(i, row)| {
-            let torque = row.into_iter().reduce(|sum, term| sum + term);
-            torque.unwrap_or(builder.constant(0.0)).named(&format!("tau{i}"), true).id()
-        })
+    let mut outputs: Vec<_> = motion
+        .torque(rows)
+        .into_iter()
+        .enumerate()
+        .map(|(i, torque)| torque.named(&format!("tau{}", i + 1), true).id())
         .collect();
+    outputs.truncate(lagrangian.dof);
     builder.finish(&outputs).factored()
 }
 
@@ -56,21 +62,22 @@ struct Plan {
 }
 
 impl Plan {
-    fn new(lagrangian: &Lagrangian, model: &Sparse) -> Self {
-        let sums: Vec<Vec<_>> = model.groups.iter().map(|group| row_sums(lagrangian, group)).collect();
+    fn new(written: &Lagrangian, model: &Sparse) -> Self {
+        let sums: Vec<Vec<_>> = model.groups.iter().map(|group| row_sums(written, group)).collect();
         let all = || sums.iter().flatten().flatten().map(|(terms, _)| terms);
         let single = all().filter(|terms| terms.len() == 1).map(|terms| terms[0].0).collect();
         let several = all().filter(|terms| terms.len() > 1).cloned().collect();
         Self { by_columns: grouped(&several, single).1, sums }
     }
 
-    fn rate<'g>(&self, builder: &'g Builder, terms: &[Term]) -> Expr<'g> {
+    fn rate<'g>(&self, motion: &RelativeTo<'g, '_>, terms: &[Term]) -> Expr<'g> {
+        let builder = motion.builder;
         if self.by_columns.contains(terms) {
             return columns(terms).map_or(builder.constant(0.0), |columns| {
                 let mut products = columns.into_iter().map(|(column, ends)| {
                     let own = (0..).zip(column).filter(|(_, sign)| *sign != 0);
-                    total(own.map(|(j, sign)| signed(sign < 0, builder.input(Variable::Qd(j)))))
-                        .zip(total(ends.iter().map(|&(k, s)| signed(s < 0, builder.input(Variable::Vr(k))))))
+                    total(own.map(|(j, sign)| signed(sign < 0, motion.of(Variable::Qd, j))))
+                        .zip(total(ends.iter().map(|&(k, s)| signed(s < 0, motion.of(Variable::Vr, k)))))
                         .map_or(builder.constant(0.0), |(a, b)| a * b)
                 });
                 total(&mut products).unwrap_or(builder.constant(0.0))
@@ -79,8 +86,8 @@ impl Plan {
         let one = |&(rate, sign): &Term| {
             let value = match rate {
                 Rate::One => builder.constant(1.0),
-                Rate::Acceleration(j) => builder.input(Variable::Ar(j)),
-                Rate::Velocities(j, k) => velocity_product(builder, j, k),
+                Rate::Acceleration(j) => motion.of(Variable::Ar, j),
+                Rate::Velocities(j, k) => motion.velocity_product(j, k),
             };
             signed(sign < 0, value)
         };

@@ -65,7 +65,7 @@ fn grown(lagrangian: &Lagrangian, terms: &Combination, reach: &[f64], sine: f64)
 
 /// The same of a sparse form.
 fn products_grown(lagrangian: &Lagrangian, sparse: &Sparse, m: usize, reach: &[f64], sine: f64) -> f64 {
-    let Some(terms) = sparse.terms(m) else { return 0.0 };
+    let terms = sparse.terms(m);
     let term =
         |&(f, k): &(usize, f64)| k.abs() * growth(lagrangian, &sparse.functions[f].factors, reach, sine);
     let rounding = gamma(512.0 + 2.0 * terms.len() as f64);

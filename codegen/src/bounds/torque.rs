@@ -9,7 +9,7 @@ use super::weighted::Weighted;
 use super::{Certificate, lattice, residuals, rounding};
 use crate::arm::{Arm, Uncertainty};
 use crate::dynamics::inverse_dynamics;
-use crate::lagrangian::{Entry, Lagrangian};
+use crate::lagrangian::{Absolute, Entry, Lagrangian};
 use crate::measure::Domain;
 use crate::motion::Motion;
 use crate::reduction::Reduced;
@@ -66,6 +66,53 @@ impl Rates {
         };
         let sum = |c: &crate::lagrangian::Coefficient| c.places.iter().map(|place| of(place.entry)).sum();
         lagrangian.coefficients.iter().map(sum).collect()
+    }
+}
+
+impl Rates {
+    /// The same for the coefficients in absolute angles in the torque of joint `i`: at most this, as a sum over what
+    /// their rates are in joint angles.
+    pub fn multipliers_in(&self, absolute: &Absolute, i: usize) -> Vec<f64> {
+        let Absolute { coordinates, lagrangian, .. } = absolute;
+        let (a, v, w) = (&self.reference_acceleration, &self.speed, &self.reference_speed);
+        let row = coordinates.column(i);
+        let enters = |r: usize| row.iter().find(|&&(b, _)| b == r).map_or(0.0, |&(_, sign)| f64::from(sign));
+        let of = |coefficient: &crate::lagrangian::Coefficient| {
+            let n = lagrangian.dof;
+            let mut linear = vec![0.0; n];
+            let mut bilinear = vec![0.0; n * n];
+            let mut constant = 0.0;
+            for place in &coefficient.places {
+                let mut acceleration = |r: usize, c: usize| {
+                    for (j, sign) in coordinates.row(c) {
+                        linear[j] += place.sign * enters(r) * f64::from(sign);
+                    }
+                };
+                match place.entry {
+                    Entry::D(r, c) if r == c => acceleration(r, c),
+                    Entry::D(r, c) => {
+                        acceleration(r, c);
+                        acceleration(c, r);
+                    }
+                    Entry::H(r, b, c) => {
+                        let pairs = if b == c { vec![(b, c)] } else { vec![(b, c), (c, b)] };
+                        for (b, c) in pairs {
+                            for (j, own) in coordinates.row(b) {
+                                for (k, other) in coordinates.row(c) {
+                                    bilinear[j * n + k] += place.sign * enters(r) * f64::from(own * other);
+                                }
+                            }
+                        }
+                    }
+                    Entry::G(r) => constant += place.sign * enters(r),
+                }
+            }
+            let linear: f64 = linear.iter().zip(a).map(|(x, a)| f64::abs(*x) * a).sum();
+            let products = v.iter().flat_map(|v| w.iter().map(move |w| v * w));
+            let bilinear: f64 = bilinear.iter().zip(products).map(|(x, u)| f64::abs(*x) * u).sum();
+            linear + bilinear + constant.abs()
+        };
+        lagrangian.coefficients.iter().map(of).collect()
     }
 }
 

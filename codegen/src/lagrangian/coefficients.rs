@@ -17,6 +17,16 @@ pub enum Entry {
     G(usize),
 }
 
+impl Entry {
+    /// The entries of a model of `n` joints: d before h before g.
+    pub fn all(n: usize) -> impl Iterator<Item = Self> {
+        let pairs = move || (0..n).flat_map(move |j| (j..n).map(move |k| (j, k)));
+        let d = pairs().map(|(i, j)| Entry::D(i, j));
+        let h = (0..n).flat_map(move |i| pairs().map(move |(j, k)| Entry::H(i, j, k)));
+        d.chain(h).chain((0..n).map(Entry::G))
+    }
+}
+
 /// A place where a coefficient stands, and the sign it has there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {

@@ -12,7 +12,7 @@ use crate::arm::{Arm, JointKind, Uncertainty};
 use crate::dynamics::{gravity, mass_matrix};
 
 /// What is below this fraction of the largest coefficient is rounding error of the transform.
-const NEGLIGIBLE: f64 = 1e-12;
+pub(super) const NEGLIGIBLE: f64 = 1e-12;
 
 /// A combination by function rather than by index.
 pub type Expansion = BTreeMap<Function, f64>;
@@ -33,21 +33,11 @@ pub fn expand_family(arm: &Arm, uncertainty: &Uncertainty) -> Lagrangian {
     layers.extend((0..uncertainty.parameters.len()).map(|k| entries(&uncertainty.alone(arm, k))));
     let truncation = layers.iter().map(|(_, truncation)| *truncation).collect();
     let mut columns: Vec<_> = layers.into_iter().map(|(entries, _)| entries.into_iter()).collect();
-    let names: Vec<Entry> = names(arm.dof());
-    let joined = names
-        .into_iter()
+    let joined = Entry::all(arm.dof())
         .map(|entry| Layers { entry, layers: columns.iter_mut().filter_map(Iterator::next).collect() })
         .collect();
     let ranges = uncertainty.parameters.iter().map(|p| [p.low, p.high]).collect();
     Lagrangian { ranges, ..distinct(arm.dof(), joined, truncation) }
-}
-
-/// The entries of the model in the order of [`entries`].
-fn names(n: usize) -> Vec<Entry> {
-    let pairs = |from: usize| (from..n).flat_map(move |j| (j..n).map(move |k| (j, k)));
-    let d = pairs(0).map(|(i, j)| Entry::D(i, j));
-    let h = (0..n).flat_map(|i| pairs(0).map(move |(j, k)| Entry::H(i, j, k)));
-    d.chain(h).chain((0..n).map(Entry::G)).collect()
 }
 
 /// d_ij with i ≤ j, h_ijk with j ≤ k and g_i, and the most that one of them lost.
@@ -59,7 +49,7 @@ fn entries(arm: &Arm) -> (Vec<Expansion>, f64) {
     let mut truncation = dropped_g.max(3.0 * dropped_d);
     let largest_d = largest(d.iter().flatten());
     let mut entries = Vec::new();
-    for entry in names(n) {
+    for entry in Entry::all(n) {
         entries.push(match entry {
             Entry::D(i, j) => d[i][j].clone(),
             Entry::H(i, j, k) => {

@@ -1,11 +1,13 @@
 //! The Lagrangian model as linear combinations: every d_ij, h_ijk and g_i is Σ_l k_l ψ_l(q).
 
+mod absolute;
 mod coefficients;
 mod expand;
 mod function;
 mod transform;
 mod values;
 
+pub use absolute::{Absolute, Coordinates};
 pub use coefficients::{Coefficient, Entry, Place};
 pub use expand::{Expansion, expand, expand_family};
 pub use function::{Function, MAX_JOINTS};

@@ -77,7 +77,7 @@ impl Ask<'_> {
         let (form, code) = exact;
         let (exact, progress) = ((*form, code), self.progress);
         let choice =
-            cheapest(&known, self.domain, self.motion, self.measure, scale, fraction, exact, progress);
+            cheapest(self.arm, &known, self.domain, self.motion, self.measure, scale, fraction, exact, progress);
         Model { reduced: choice.reduced, form: choice.form, code: choice.code }
     }
 }

@@ -79,7 +79,7 @@ pub fn over_dictionary(
         let weights: Vec<f64> = long.iter().map(|&m| weight(&lagrangian.coefficients[m], measure)).collect();
         run(GramSchmidt::over(slices(), &alphas), &weights)
     };
-    let mut model = Sparse { functions: dictionary, groups: Vec::new() };
+    let mut model = Sparse { functions: dictionary, groups: Vec::new(), absolute: None };
     let mut kept = long.iter().zip(kept).peekable();
     for m in 0..count {
         let terms = match kept.next_if(|(long, _)| **long == m) {

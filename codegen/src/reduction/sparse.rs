@@ -1,9 +1,10 @@
 //! Models whose coefficients keep few functions each, products among them.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use super::Reduced;
-use crate::lagrangian::{Combination, Function, Lagrangian};
+use super::{Reduced, plus};
+use crate::lagrangian::{Absolute, Combination, Function, Lagrangian};
 
 /// A function that a model may keep: one ψ, or a product of two or three of them.
 ///
@@ -46,19 +47,49 @@ pub struct Sparse {
     pub functions: Vec<Candidate>,
     /// The forms, in the order of their first members.
     pub groups: Vec<Group>,
+    /// The model whose coefficients these are, where it is written in absolute angles.
+    pub absolute: Option<Arc<Absolute>>,
 }
 
 impl Sparse {
+    /// The model whose coefficients the groups' members are; `lagrangian` is the one in joint angles.
+    pub fn written_in<'a>(&'a self, lagrangian: &'a Lagrangian) -> &'a Lagrangian {
+        self.absolute.as_ref().map_or(lagrangian, |absolute| &absolute.lagrangian)
+    }
+
     /// The same model over the ψ of the exact one. A coefficient whose form keeps all its functions and no others is
     /// exact.
     pub fn reduced(mut self, lagrangian: &Lagrangian) -> Reduced {
-        let count = lagrangian.coefficients.len();
+        let (mut combinations, mut simplified) = self.combinations(lagrangian);
+        if let Some(absolute) = &self.absolute {
+            let sum = |parts: &Vec<(usize, f64)>| {
+                parts.iter().fold(Combination::new(), |sum, &(s, k)| plus(&sum, k, &combinations[s]))
+            };
+            let changed: Vec<bool> =
+                absolute.parts.iter().map(|parts| parts.iter().any(|&(s, _)| simplified[s])).collect();
+            let exact = lagrangian.coefficients.iter().map(|coefficient| &coefficient.terms);
+            let all = absolute.parts.iter().zip(&changed).zip(exact);
+            combinations =
+                all.map(|((parts, changed), exact)| if *changed { sum(parts) } else { exact.clone() }).collect();
+            simplified = changed;
+        }
+        let mut selected: Vec<usize> = combinations.iter().flatten().map(|&(l, _)| l).collect();
+        selected.sort_unstable();
+        selected.dedup();
+        Reduced { selected, combinations, simplified, variations: Vec::new(), sparse: Some(self) }
+    }
+
+    /// α̂_m of the model as it is written, and whether it differs from α_m in form.
+    fn combinations(&mut self, lagrangian: &Lagrangian) -> (Vec<Combination>, Vec<bool>) {
+        let absolute = self.absolute.clone();
+        let written = absolute.as_ref().map_or(lagrangian, |absolute| &absolute.lagrangian);
+        let count = written.coefficients.len();
         let mut combinations = vec![Combination::new(); count];
         let mut simplified = vec![true; count];
         for group in &mut self.groups {
             let harmonic = group.terms.iter().all(|&(f, _)| self.functions[f].factors.len() == 1);
             if let ([(m, sign)], true) = (group.members.as_slice(), harmonic) {
-                let exact = &lagrangian.coefficients[*m].terms;
+                let exact = &written.coefficients[*m].terms;
                 let of = |l: usize| exact.iter().find(|term| term.0 == l).map(|term| term.1 * sign);
                 let same: Vec<_> = group
                     .terms
@@ -82,10 +113,7 @@ impl Sparse {
                 combinations[m] = sum.iter().map(|(&l, &k)| (l, sign * k)).filter(|t| t.1 != 0.0).collect();
             }
         }
-        let mut selected: Vec<usize> = combinations.iter().flatten().map(|&(l, _)| l).collect();
-        selected.sort_unstable();
-        selected.dedup();
-        Reduced { selected, combinations, simplified, variations: Vec::new(), sparse: Some(self) }
+        (combinations, simplified)
     }
 
     /// The place of ψ_l among the functions, which it joins if it is new.
@@ -111,15 +139,22 @@ impl Sparse {
         self
     }
 
-    /// The form of coefficient `m` up to sign; `None` where it is zero.
-    pub fn terms(&self, m: usize) -> Option<&[(usize, f64)]> {
-        let group = self.groups.iter().find(|group| group.members.iter().any(|&(other, _)| other == m));
-        group.map(|group| group.terms.as_slice())
+    /// What coefficient `m` of the model in joint angles is the sum of: terms with the parameters that they have there.
+    pub fn terms(&self, m: usize) -> Vec<(usize, f64)> {
+        let own = [(m, 1.0)];
+        let parts = self.absolute.as_ref().map_or(own.as_slice(), |absolute| &absolute.parts[m]);
+        let of = |&(s, factor): &(usize, f64)| {
+            let group = self.groups.iter().find(|group| group.members.iter().any(|&(other, _)| other == s));
+            let terms = group.map_or([].as_slice(), |group| group.terms.as_slice());
+            terms.iter().map(move |&(f, k)| (f, factor * k)).collect::<Vec<_>>()
+        };
+        parts.iter().flat_map(of).collect()
     }
 
     /// Σ|k| over the terms of coefficient `m` and their number: what its evaluation can round by.
     pub fn magnitude(&self, m: usize) -> (f64, usize) {
-        self.terms(m).map_or((0.0, 0), |terms| (terms.iter().map(|t| t.1.abs()).sum(), terms.len()))
+        let terms = self.terms(m);
+        (terms.iter().map(|t| t.1.abs()).sum(), terms.len())
     }
 }
 

@@ -1,6 +1,7 @@
 //! Mode `tolerance`: the cheapest model whose certified torque error is small enough.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -10,7 +11,7 @@ use crate::bounds::{
     Certificate, Effort, Rates, certified_beside, separate_error, torque_exceeds, workspace_peak_torque,
 };
 use crate::graph::Graph;
-use crate::lagrangian::{Combination, Lagrangian, evaluate};
+use crate::lagrangian::{Absolute, Combination, Coordinates, Lagrangian, evaluate};
 use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::progress::{Progress, Stage};
@@ -60,6 +61,14 @@ impl Scale {
     }
 }
 
+impl Scale {
+    /// By joint, Ū over the joint's torque.
+    fn shares(&self, multipliers: impl Fn(usize) -> Vec<f64>) -> Vec<Vec<f64>> {
+        let of = |(i, peak): (usize, &f64)| multipliers(i).into_iter().map(|u| u / peak).collect();
+        self.peak.iter().enumerate().map(of).collect()
+    }
+}
+
 /// A model and its code.
 #[derive(Clone, Debug)]
 pub struct Choice {
@@ -96,6 +105,7 @@ pub fn why_exact(lagrangian: &Lagrangian, peak: Option<&[f64]>, fraction: f64) -
 /// it, and the first member in ascending price that is certified is taken, so that a larger fraction never costs more.
 #[allow(clippy::too_many_arguments, reason = "what a model is chosen by, and who hears of it")]
 pub fn cheapest(
+    arm: &Arm,
     lagrangian: &Lagrangian,
     domain: &Domain,
     motion: Option<&Motion>,
@@ -112,16 +122,21 @@ pub fn cheapest(
     if lagrangian.terms() > LONG {
         return unreduced();
     }
-    let shares: Vec<Vec<f64>> = scale
-        .peak
-        .iter()
-        .enumerate()
-        .map(|(i, peak)| scale.rates.multipliers(lagrangian, i).into_iter().map(|u| u / peak).collect())
-        .collect();
+    let shares = scale.shares(|i| scale.rates.multipliers(lagrangian, i));
     let everywhere = extremes(measure, domain, motion);
     let points = points(domain, &everywhere);
-    let family =
-        reduction::family(&Problem { lagrangian, shares: &shares, points: &points }, BEYOND * fraction);
+    let in_joints = Problem { lagrangian, absolute: None, shares: &shares, points: &points };
+    let most = BEYOND * fraction;
+    let family = match Coordinates::of(arm) {
+        None => reduction::family(&in_joints, most),
+        Some(coordinates) => {
+            let absolute = Arc::new(Absolute::new(lagrangian, coordinates));
+            let shares = scale.shares(|i| scale.rates.multipliers_in(&absolute, i));
+            let lagrangian = &absolute.lagrangian;
+            let absolute = Some(&absolute);
+            reduction::family(&Problem { lagrangian, absolute, shares: &shares, points: &points }, most)
+        }
+    };
     let mut choices: Vec<Choice> = family
         .into_par_iter()
         .map(|member| {

@@ -9,8 +9,7 @@ use super::fitting::{Form, Table};
 use super::moves::{Moves, united};
 use super::price::Prices;
 use super::ties::{exchanged, tied};
-use super::{Member, STEP, STRICTEST, start};
-use crate::lagrangian::Lagrangian;
+use super::{Member, Problem, STEP, STRICTEST, start};
 use crate::reduction::sparse::{Candidate, Group, Sparse};
 
 /// Exchanges whose error is above the step's by no more than this factor are fitted again to the room that the other
@@ -57,13 +56,15 @@ pub(super) struct Descent<'a> {
 
 /// The members with errors up to `most`, of a descent as `keen` on large steps as that.
 pub(super) fn members(
-    lagrangian: &Lagrangian,
+    problem: &Problem,
     candidates: &[Candidate],
     table: &Table,
     most: f64,
     keen: f64,
 ) -> Vec<Member> {
-    let prices = Prices::new(lagrangian, candidates);
+    let lagrangian = problem.lagrangian;
+    let onto = problem.absolute.map(|absolute| absolute.coordinates.onto.as_slice());
+    let prices = Prices::new(lagrangian, candidates, onto);
     let forms: Vec<Arc<Form>> = (0..lagrangian.coefficients.len())
         .into_par_iter()
         .map(|m| Arc::new(start::forms(lagrangian, table, m)))
@@ -98,7 +99,7 @@ pub(super) fn members(
             let room = (TIED * level).max(largest(&tight.errors));
             let forms = tied(table, &tight.forms, &tight.errors, room);
             let error = largest(&errors(lagrangian.dof, table, &forms));
-            out.push(Member { model: sparse(candidates, &forms), error });
+            out.push(Member { model: Sparse { absolute: problem.absolute.cloned(), ..sparse(candidates, &forms) }, error });
         }
         level *= STEP;
     }
@@ -289,5 +290,5 @@ fn sparse(candidates: &[Candidate], forms: &[Arc<Form>]) -> Sparse {
         terms: form.kept.iter().zip(&form.parameters).filter_map(|(f, &k)| Some((slot(f)?, k))).collect(),
     };
     let groups = forms.iter().filter(|form| !form.kept.is_empty()).map(|form| group(form)).collect();
-    Sparse { functions: used.iter().map(|&f| candidates[f].clone()).collect(), groups }
+    Sparse { functions: used.iter().map(|&f| candidates[f].clone()).collect(), groups, absolute: None }
 }

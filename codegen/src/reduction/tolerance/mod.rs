@@ -10,10 +10,12 @@ mod price;
 mod start;
 mod ties;
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use super::sparse::{Candidate, Sparse, products};
-use crate::lagrangian::{Lagrangian, evaluate};
+use crate::lagrangian::{Absolute, Lagrangian, evaluate};
 use fitting::Table;
 
 /// Where the descent begins: the torque error at the points as a fraction of the joint's torque.
@@ -28,8 +30,10 @@ const LAST: f64 = 0.5;
 /// What the models must be good for.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
-    /// The exact model.
+    /// The exact model, in the coordinates in which its coefficients are sought.
     pub lagrangian: &'a Lagrangian,
+    /// These, where they are not the joints'; its model is `lagrangian`.
+    pub absolute: Option<&'a Arc<Absolute>>,
     /// By joint and coefficient: Ū_m, the most that multiplies α_m in that row, over the joint's torque.
     pub shares: &'a [Vec<f64>],
     /// Points of the domain, rad or m.
@@ -69,6 +73,6 @@ pub fn family(problem: &Problem, most: f64) -> Vec<Member> {
     let coefficients =
         (0..lagrangian.coefficients.len()).map(|m| rows.iter().map(|row| row.1[m]).collect()).collect();
     let table = Table::new(problem, functions, coefficients);
-    let one = |&keen: &f64| descent::members(lagrangian, &candidates, &table, most.min(LAST), keen);
+    let one = |&keen: &f64| descent::members(problem, &candidates, &table, most.min(LAST), keen);
     KEEN.par_iter().flat_map_iter(one).collect()
 }

@@ -20,10 +20,12 @@ pub(super) struct Prices {
     /// By coefficient and row: rates with signs.
     places: Vec<Vec<Vec<Term>>>,
     dof: usize,
+    /// [`crate::lagrangian::Coordinates::onto`] of a model in absolute angles.
+    onto: Vec<i8>,
 }
 
 impl Prices {
-    pub fn new(lagrangian: &Lagrangian, candidates: &[Candidate]) -> Self {
+    pub fn new(lagrangian: &Lagrangian, candidates: &[Candidate], onto: Option<&[i8]>) -> Self {
         let mut table = Nodes::default();
         let needs: Vec<Vec<usize>> =
             candidates.iter().map(|c| table.candidate(lagrangian, c).into_iter().collect()).collect();
@@ -36,6 +38,7 @@ impl Prices {
             nodes: table.costs,
             places: (0..lagrangian.coefficients.len()).map(|m| rates(lagrangian, m)).collect(),
             dof: lagrangian.dof,
+            onto: onto.map_or(vec![0; lagrangian.dof], <[i8]>::to_vec),
         }
     }
 
@@ -84,8 +87,42 @@ impl Prices {
                 products.push(terms);
             }
         }
+        let rates = single.iter().copied().chain(sums.iter().flatten().map(|term| term.0));
+        cost += self.relative(rates, &in_row);
         cost += grouped(&sums, single).0;
         cost + in_row.iter().map(|count| count.saturating_sub(1)).sum::<usize>()
+    }
+
+    /// What it takes to have the rates in absolute angles, and the joints' torques from those of the rows.
+    fn relative(&self, rates: impl Iterator<Item = Rate>, in_row: &[usize]) -> usize {
+        let mut used = [[false; MAX_JOINTS]; 2];
+        for rate in rates {
+            match rate {
+                Rate::One => {}
+                Rate::Acceleration(j) => used[0][j] = true,
+                Rate::Velocities(j, k) => {
+                    used[1][j] = true;
+                    used[1][k] = true;
+                }
+            }
+        }
+        let mut cost = 0;
+        // From the last joint on: θ̇_j needs θ̇_{j−1}.
+        for j in (1..self.dof).rev().filter(|&j| self.onto[j] != 0) {
+            for (kind, price) in [1, 2].into_iter().enumerate() {
+                if used[kind][j] {
+                    cost += price;
+                    used[kind][j - 1] = true;
+                }
+            }
+        }
+        let mut carried = false;
+        for i in (0..self.dof).rev() {
+            carried &= i + 1 < self.dof && self.onto[i + 1] != 0;
+            cost += usize::from(carried && in_row[i] > 0);
+            carried |= in_row[i] > 0;
+        }
+        cost
     }
 }
 
