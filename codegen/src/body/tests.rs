@@ -1,5 +1,7 @@
 //! Both bodies against the oracle, on arms that use everything.
 
+mod absolute;
+
 use std::path::Path;
 
 use super::{expanded, recursive};

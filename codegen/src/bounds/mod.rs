@@ -16,6 +16,7 @@ mod lattice;
 mod peak;
 mod polynomial;
 mod queue;
+mod rates;
 mod recursion;
 mod region;
 mod residual;
@@ -32,11 +33,12 @@ mod weighted;
 pub use estimate::estimate;
 pub use factor::{factor, factor_bounds};
 pub use peak::workspace_peak_torque;
+pub use rates::Rates;
 pub use recursion::recursion;
 pub use region::reach;
 pub(crate) use rounding::{printed_down, printed_up};
 pub use sines::with_sines;
-pub use torque::{Rates, Torque, largest_torque, peak_torque, separate_error, torque_error, torque_exceeds};
+pub use torque::{Torque, largest_torque, peak_torque, separate_error, torque_error, torque_exceeds};
 
 use rayon::prelude::*;
 

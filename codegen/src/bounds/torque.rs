@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::rates::Rates;
 use super::region::{Region, reach};
 use super::residual::Residual;
 use super::sum::{Part, Stop};
@@ -9,7 +10,7 @@ use super::weighted::Weighted;
 use super::{Certificate, lattice, residuals, rounding};
 use crate::arm::{Arm, Uncertainty};
 use crate::dynamics::inverse_dynamics;
-use crate::lagrangian::{Absolute, Entry, Lagrangian};
+use crate::lagrangian::Lagrangian;
 use crate::measure::Domain;
 use crate::motion::Motion;
 use crate::reduction::Reduced;
@@ -26,95 +27,6 @@ const CELLS: usize = 50_000;
 const TOLERANCE: f64 = 0.02;
 /// Instants of the motion at which its torque is taken.
 const INSTANTS: u32 = 1000;
-
-/// The largest rates that multiply D, h and G in the law, by joint.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Rates {
-    /// |q̇|, rad/s or m/s.
-    pub speed: Vec<f64>,
-    /// |v_r|, rad/s or m/s.
-    pub reference_speed: Vec<f64>,
-    /// |a_r|, rad/s² or m/s².
-    pub reference_acceleration: Vec<f64>,
-}
-
-impl Rates {
-    /// The motion's own: q̇ = v_r = q̇_d and a_r = q̈_d.
-    pub fn of(motion: &Motion) -> Self {
-        let reach = motion.reach();
-        let (speed, acceleration) = (reach.speed, reach.acceleration);
-        Self { reference_speed: speed.clone(), speed, reference_acceleration: acceleration }
-    }
-
-    /// The joints' limits; `None` where one is missing.
-    pub fn limits(arm: &Arm) -> Option<Self> {
-        let speed: Vec<f64> = arm.joints.iter().map(|joint| joint.limits.velocity).collect::<Option<_>>()?;
-        let acceleration = arm.joints.iter().map(|joint| joint.limits.acceleration).collect::<Option<_>>()?;
-        Some(Self { reference_speed: speed.clone(), speed, reference_acceleration: acceleration })
-    }
-
-    /// Ū_m of row `i`: the most that multiplies α_m there, over all its places.
-    pub fn multipliers(&self, lagrangian: &Lagrangian, i: usize) -> Vec<f64> {
-        let (a, v, w) = (&self.reference_acceleration, &self.speed, &self.reference_speed);
-        let of = |entry: Entry| match entry {
-            Entry::D(r, c) if r == i => a[c],
-            Entry::D(r, c) if c == i => a[r],
-            Entry::H(r, j, k) if r == i && j == k => v[j] * w[j],
-            Entry::H(r, j, k) if r == i => v[j] * w[k] + v[k] * w[j],
-            Entry::G(r) if r == i => 1.0,
-            _ => 0.0,
-        };
-        let sum = |c: &crate::lagrangian::Coefficient| c.places.iter().map(|place| of(place.entry)).sum();
-        lagrangian.coefficients.iter().map(sum).collect()
-    }
-}
-
-impl Rates {
-    /// The same for the coefficients in absolute angles in the torque of joint `i`: at most this, as a sum over what
-    /// their rates are in joint angles.
-    pub fn multipliers_in(&self, absolute: &Absolute, i: usize) -> Vec<f64> {
-        let Absolute { coordinates, lagrangian, .. } = absolute;
-        let (a, v, w) = (&self.reference_acceleration, &self.speed, &self.reference_speed);
-        let row = coordinates.column(i);
-        let enters = |r: usize| row.iter().find(|&&(b, _)| b == r).map_or(0.0, |&(_, sign)| f64::from(sign));
-        let of = |coefficient: &crate::lagrangian::Coefficient| {
-            let n = lagrangian.dof;
-            let mut linear = vec![0.0; n];
-            let mut bilinear = vec![0.0; n * n];
-            let mut constant = 0.0;
-            for place in &coefficient.places {
-                let mut acceleration = |r: usize, c: usize| {
-                    for (j, sign) in coordinates.row(c) {
-                        linear[j] += place.sign * enters(r) * f64::from(sign);
-                    }
-                };
-                match place.entry {
-                    Entry::D(r, c) if r == c => acceleration(r, c),
-                    Entry::D(r, c) => {
-                        acceleration(r, c);
-                        acceleration(c, r);
-                    }
-                    Entry::H(r, b, c) => {
-                        let pairs = if b == c { vec![(b, c)] } else { vec![(b, c), (c, b)] };
-                        for (b, c) in pairs {
-                            for (j, own) in coordinates.row(b) {
-                                for (k, other) in coordinates.row(c) {
-                                    bilinear[j * n + k] += place.sign * enters(r) * f64::from(own * other);
-                                }
-                            }
-                        }
-                    }
-                    Entry::G(r) => constant += place.sign * enters(r),
-                }
-            }
-            let linear: f64 = linear.iter().zip(a).map(|(x, a)| f64::abs(*x) * a).sum();
-            let products = v.iter().flat_map(|v| w.iter().map(move |w| v * w));
-            let bilinear: f64 = bilinear.iter().zip(products).map(|(x, u)| f64::abs(*x) * u).sum();
-            linear + bilinear + constant.abs()
-        };
-        lagrangian.coefficients.iter().map(of).collect()
-    }
-}
 
 /// Torque errors and what they are compared with.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use super::Module;
 use crate::bounds::{Torque, printed_down, printed_up};
 use crate::design::Guarantee;
-use crate::lagrangian::Lagrangian;
+use crate::lagrangian::{Coordinates, Lagrangian};
 use crate::measure::Domain;
 use crate::reduction::Reduced;
 use crate::sines::{Kind, Sines};
@@ -47,6 +47,9 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     if !kept.is_empty() {
         lines.push(String::new());
     }
+    if let Some(absolute) = module.reduced.sparse.as_ref().and_then(|model| model.absolute.as_ref()) {
+        lines.extend([angles(&absolute.coordinates), String::new()]);
+    }
     let cost = |o: &crate::graph::Operations| {
         format!("{} multiplications, {} additions, {} sine-cosine pairs", o.mul, o.add, o.trig_pairs)
     };
@@ -88,6 +91,25 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     }
     lines.extend(uncertain(module));
     lines
+}
+
+/// What names that end in `_abs` mean.
+fn angles(coordinates: &Coordinates) -> String {
+    let turned = (0..coordinates.onto.len()).filter(|&i| coordinates.onto[i] != 0).map(|i| {
+        let sum = coordinates.row(i).into_iter().rev().map(|(j, sign)| (sign, format!("q{}", j + 1)));
+        let terms = sum.enumerate().map(|(place, (sign, q))| match (place, sign < 0) {
+            (0, false) => q,
+            (0, true) => format!("−{q}"),
+            (_, false) => format!(" + {q}"),
+            (_, true) => format!(" − {q}"),
+        });
+        format!("θ{} = {}", i + 1, terms.collect::<String>())
+    });
+    format!(
+        " Names that end in `_abs` are of the model in absolute angles, where axes are parallel: {}, and θi = qi otherwise; with θ = T q, \
+         τ = Tᵀ τ_θ.",
+        turned.collect::<Vec<_>>().join(", ")
+    )
 }
 
 /// Whether uncertain numbers move coefficients of a model that does not follow them.

@@ -105,7 +105,9 @@ impl Absolute {
                     products(&[coordinates.back(a), coordinates.back(b), coordinates.back(c)])
                         .for_each(|(at, sign)| add(h(at[0], at[1], at[2]), sign));
                 }
-                Entry::G(a) => products(&[coordinates.back(a)]).for_each(|(at, sign)| add(Entry::G(at[0]), sign)),
+                Entry::G(a) => {
+                    products(&[coordinates.back(a)]).for_each(|(at, sign)| add(Entry::G(at[0]), sign))
+                }
             }
             sum
         };

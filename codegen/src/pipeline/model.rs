@@ -76,8 +76,17 @@ impl Ask<'_> {
         let known = self.lagrangian.at_nominal();
         let (form, code) = exact;
         let (exact, progress) = ((*form, code), self.progress);
-        let choice =
-            cheapest(self.arm, &known, self.domain, self.motion, self.measure, scale, fraction, exact, progress);
+        let choice = cheapest(
+            self.arm,
+            &known,
+            self.domain,
+            self.motion,
+            self.measure,
+            scale,
+            fraction,
+            exact,
+            progress,
+        );
         Model { reduced: choice.reduced, form: choice.form, code: choice.code }
     }
 }

@@ -69,8 +69,9 @@ impl Sparse {
                 absolute.parts.iter().map(|parts| parts.iter().any(|&(s, _)| simplified[s])).collect();
             let exact = lagrangian.coefficients.iter().map(|coefficient| &coefficient.terms);
             let all = absolute.parts.iter().zip(&changed).zip(exact);
-            combinations =
-                all.map(|((parts, changed), exact)| if *changed { sum(parts) } else { exact.clone() }).collect();
+            combinations = all
+                .map(|((parts, changed), exact)| if *changed { sum(parts) } else { exact.clone() })
+                .collect();
             simplified = changed;
         }
         let mut selected: Vec<usize> = combinations.iter().flatten().map(|&(l, _)| l).collect();

@@ -99,7 +99,10 @@ pub(super) fn members(
             let room = (TIED * level).max(largest(&tight.errors));
             let forms = tied(table, &tight.forms, &tight.errors, room);
             let error = largest(&errors(lagrangian.dof, table, &forms));
-            out.push(Member { model: Sparse { absolute: problem.absolute.cloned(), ..sparse(candidates, &forms) }, error });
+            out.push(Member {
+                model: Sparse { absolute: problem.absolute.cloned(), ..sparse(candidates, &forms) },
+                error,
+            });
         }
         level *= STEP;
     }
