@@ -171,6 +171,7 @@ impl Generation {
                 motion: motion.as_ref(),
                 measure: &measure,
                 points: &points,
+                sines: &sines,
                 progress,
             };
             ask.model(scale.as_ref(), &exact)

@@ -261,8 +261,8 @@ fn the_module_states_the_torque_error_and_whether_reducing_pays() {
 
 #[test]
 fn an_exact_model_says_why_it_is_one() {
-    let strict = within(&workspace(), 0.003);
-    assert!(strict.verdict().starts_with("no reduced model is sought for tolerances below 0.31 %"));
+    let strict = within(&workspace(), 1e-5);
+    assert!(strict.verdict().starts_with("no sparse model is sought for tolerances below 0.31 %"));
     assert!(strict.module().unwrap().contains(&strict.verdict()));
     let lagrangian = &strict.lagrangian;
     assert!(why_exact(lagrangian, Some(&[1.0; 3]), 0.1).contains("is cheaper than the exact one"));

@@ -6,6 +6,7 @@ mod definite;
 mod dh;
 mod drive;
 mod frames;
+mod inertial;
 mod intervals;
 mod place;
 mod transform;
@@ -17,6 +18,7 @@ pub use crate::spec::JointKind;
 pub(crate) use base_parameters::{Along, Kept, Mass, Offset};
 pub use definite::{Indefinite, indefinite, indefinite_among};
 pub(crate) use frames::Origin;
+pub use inertial::{Inertial, Quantity};
 pub use transform::Transform;
 pub use uncertainty::{MOST_PARAMETERS, Parameter, Uncertainty};
 

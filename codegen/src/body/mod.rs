@@ -14,6 +14,7 @@ mod tests;
 pub use expanded::expanded;
 pub use plain::plain;
 pub use recursive::recursive;
+pub(crate) use recursive::{Plan, cost, planned};
 pub use regressor::{Regressor, regressor};
 pub use sparse::sparse;
 

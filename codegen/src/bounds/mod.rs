@@ -34,7 +34,7 @@ pub use estimate::estimate;
 pub use factor::{factor, factor_bounds};
 pub use peak::workspace_peak_torque;
 pub use rates::Rates;
-pub use recursion::recursion;
+pub use recursion::{beside_expansion, recursion};
 pub use region::reach;
 pub(crate) use rounding::{printed_down, printed_up};
 pub use sines::with_sines;

@@ -13,8 +13,9 @@
 use std::ops::{Add, Mul};
 
 use super::Bounds;
-use super::rounding::gamma;
+use super::rounding::{gamma, monomial};
 use crate::arm::{Arm, Joint, JointKind};
+use crate::lagrangian::{Combination, Lagrangian};
 
 /// A bound on a norm, and on what it can change by.
 #[derive(Clone, Copy, Debug, Default)]
@@ -56,9 +57,28 @@ impl Mul for Size {
 /// Bounds on what the recursive body of `arm` is off by, where |q_j| ≤ `reach` for prismatic joints and every sine and
 /// cosine is off by `sine`.
 pub fn recursion(arm: &Arm, reach: &[f64], sine: f64) -> Bounds {
+    entries(arm, reach, std::f64::consts::SQRT_2 * sine, &Size::bound)
+}
+
+/// Roundings of a recursion, times what its constants may exceed the parameters by that they were made of: a body keeps
+/// at most 30 times what was gathered on it, a few sums of products make each constant and some thousand the torque.
+const MOVES: f64 = 131_072.0;
+
+/// Bounds on the rounding in f64 of the recursive body of `arm`, where |q_j| ≤ `reach` for prismatic joints and sines and
+/// cosines are as good as rounding: a part of the recursion over norms, which bounds whatever is summed on the way.
+fn recursion_rounding(arm: &Arm, reach: &[f64]) -> Bounds {
+    let part = gamma(MOVES);
+    let mut bounds = entries(arm, reach, 0.0, &|size: Size| (part * size.exact).next_up());
+    for (j, joint) in arm.joints.iter().enumerate() {
+        bounds.d[j][j] = (bounds.d[j][j] + part * joint.armature.abs()).next_up();
+    }
+    bounds
+}
+
+fn entries(arm: &Arm, reach: &[f64], turn: f64, bound: &dyn Fn(Size) -> f64) -> Bounds {
     let n = arm.dof();
     let unit = |j: usize| -> Vec<f64> { (0..n).map(|i| if i == j { 1.0 } else { 0.0 }).collect() };
-    let (rest, model) = (vec![0.0; n], Norms { arm, reach, turn: std::f64::consts::SQRT_2 * sine });
+    let (rest, model) = (vec![0.0; n], Norms { arm, reach, turn, bound });
     let gravity = norm(&arm.gravity);
     let mut bounds = Bounds {
         d: vec![vec![0.0; n]; n],
@@ -85,6 +105,8 @@ struct Norms<'a> {
     reach: &'a [f64],
     /// √2 ε.
     turn: f64,
+    /// What is made of the size of an entry.
+    bound: &'a dyn Fn(Size) -> f64,
 }
 
 impl Norms<'_> {
@@ -118,8 +140,8 @@ impl Norms<'_> {
         for (j, joint) in self.arm.joints.iter().enumerate().rev() {
             let (force, moment) = (wrenches[j].0 + carried.0, wrenches[j].1 + carried.1);
             torque.push(match joint.kind {
-                JointKind::Revolute => moment.bound(),
-                JointKind::Prismatic => force.bound(),
+                JointKind::Revolute => (self.bound)(moment),
+                JointKind::Prismatic => (self.bound)(force),
             });
             let turn = self.turn(joint);
             carried = (turn * force, turn * moment + self.origin(j, joint) * turn * force);
@@ -148,4 +170,23 @@ impl Norms<'_> {
 /// Euclidean norm, rounded up.
 fn norm(x: &[f64]) -> f64 {
     libm::sqrt(x.iter().map(|x| x * x).sum::<f64>()) * (1.0 + 8.0 * f64::EPSILON)
+}
+
+/// By coefficient, what the recursive body of `arm` may be off by from `combinations`, its expansion, which lack `lacking`,
+/// where |q_j| ≤ `reach`.
+pub fn beside_expansion(
+    lagrangian: &Lagrangian,
+    combinations: &[Combination],
+    lacking: &[f64],
+    arm: &Arm,
+    reach: &[f64],
+) -> Vec<f64> {
+    let largest = reach.iter().fold(1.0, |p: f64, &q| p * (q * q).max(1.0));
+    let own = recursion_rounding(arm, reach).certificates(lagrangian);
+    let all = own.iter().zip(combinations).zip(lacking);
+    all.map(|((own, terms), lacking)| {
+        let sum: f64 = terms.iter().map(|&(l, k)| k.abs() * monomial(lagrangian, l, reach)).sum();
+        (own.bound + gamma(1024.0) * sum + lacking * largest).next_up()
+    })
+    .collect()
 }

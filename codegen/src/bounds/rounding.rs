@@ -21,6 +21,9 @@
 //! A sparse form evaluates Σ k_f ψ_f over products ψ_f of at most three functions: it adds γ_{256+ξ} Σ|k_f| sup|ψ_f|
 //! to E.
 //!
+//! Where the model is the recursion of a simpler arm, [`super::beside_expansion`] adds what its code, its constants and its
+//! expansion err by.
+//!
 //! Uncertain parameters add the same three for every ∂α_m/∂u_k and ∂α̂_m/∂u_k, times the largest |u_k|.
 
 use crate::lagrangian::{Combination, Lagrangian};
@@ -49,7 +52,9 @@ pub fn published(lagrangian: &Lagrangian, m: usize, reduced: &Reduced, reach: &[
         let (sum, count) = sparse.magnitude(m);
         gamma(256.0 + count as f64) * sum * largest
     });
-    let own = evaluation(kept) + products + exact(&coefficient.terms) + lagrangian.truncation * largest;
+    let recursion = reduced.dropped.as_ref().map_or(0.0, |dropped| dropped.rounding[m]);
+    let own =
+        evaluation(kept) + products + recursion + exact(&coefficient.terms) + lagrangian.truncation * largest;
     let varied = lagrangian.ranges.iter().enumerate().map(|(k, [low, high])| {
         let learnt = reduced.variations.get(m).map_or(0.0, |v| evaluation(&v[k]));
         let rest = exact(&coefficient.variations[k]) + lagrangian.variation_truncation[k] * largest;

@@ -32,7 +32,7 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
     Ok(quote! {
         /// Number of joints n.
         pub const JOINTS: usize = #n;
-        /// Number of kept functions; 0 for the exact model.
+        /// Number of kept functions; 0 for the exact model, also of an arm with other base parameters.
         pub const FUNCTIONS: usize = #xi;
         /// The kept functions, in the order of the model's documentation.
         pub const PSI: [&str; #xi] = [#(#psi),*];

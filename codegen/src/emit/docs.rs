@@ -28,11 +28,18 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     let p = module.lagrangian.functions.len();
     let mut lines = Vec::new();
     let kept = functions(module.lagrangian, module.reduced);
-    if kept.is_empty() {
+    if module.reduced.is_exact() {
         lines.push(format!(" Exact model of `{}`, {n} joints, in {} form.", module.name, module.form.name()));
     } else {
         let (name, count) = (module.name, kept.len());
-        lines.push(if module.reduced.sparse.is_some() {
+        lines.push(if let Some(dropped) = &module.reduced.dropped {
+            format!(
+                " Reduced model of `{name}`, {n} joints: the exact one of an arm whose base parameters differ, in {} form. \
+                 Without {}.",
+                module.form.name(),
+                dropped.lost()
+            )
+        } else if module.reduced.sparse.is_some() {
             format!(
                 " Reduced model of `{name}`, {n} joints: {count} functions, where the exact model has {p}."
             )
@@ -59,7 +66,7 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     if let Some(line) = taken(sines) {
         lines.extend([line, String::new()]);
     }
-    lines.push(if kept.is_empty() {
+    lines.push(if module.reduced.is_exact() {
         format!(" Verdict: {}", module.verdict)
     } else {
         format!(" The exact model costs {}: {}", cost(&exact), module.verdict)
@@ -68,7 +75,7 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     if let Some(known) = module.torque {
         lines.extend([format!(" {}", torque(known)), String::new()]);
     }
-    if !kept.is_empty() {
+    if !module.reduced.is_exact() {
         lines.push(format!(
             " Domain of the bounds: {}. They are certified, rounding in f64 included; {}{}.",
             domain(module.domain),

@@ -73,7 +73,7 @@ impl Left<'_> {
     pub fn torque(&self, certificates: &[Certificate], bounds: &Bounds, scale: Scale) -> Torque {
         let Self { lagrangian, reduced, domain, motion, .. } = *self;
         let Scale { rates, peak } = scale;
-        if self.form == Form::Recursive {
+        if self.form == Form::Recursive && reduced.is_exact() {
             return Torque { error: bounds.torque(&rates), peak };
         }
         let mut error = torque_error(lagrangian, reduced, domain, motion, certificates, &rates);

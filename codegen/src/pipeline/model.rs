@@ -9,8 +9,9 @@ use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::progress::Progress;
 use crate::reduction::{self, Dictionary, Reduced};
-use crate::spec::{DictionarySpec, ModelSpec, RefitSpec, Spec};
-use crate::tolerance::{Scale, cheapest};
+use crate::sines::Sines;
+use crate::spec::{DictionarySpec, LawSpec, ModelSpec, RefitSpec, Spec};
+use crate::tolerance::{self, Scale};
 
 /// A model with its code.
 pub(super) struct Model {
@@ -28,6 +29,7 @@ pub(super) struct Ask<'a> {
     pub motion: Option<&'a Motion>,
     pub measure: &'a Measure,
     pub points: &'a [Vec<f64>],
+    pub sines: &'a Sines,
     pub progress: &'a dyn Progress,
 }
 
@@ -74,19 +76,20 @@ impl Ask<'_> {
     fn cheapest(&self, scale: Option<&Scale>, exact: &(Form, Graph)) -> Model {
         let fraction = self.spec.model.tolerance().unwrap_or_default();
         let known = self.lagrangian.at_nominal();
-        let (form, code) = exact;
-        let (exact, progress) = ((*form, code), self.progress);
-        let choice = cheapest(
-            self.arm,
-            &known,
-            self.domain,
-            self.motion,
-            self.measure,
+        let law = self.spec.control.as_ref().map(|control| control.law);
+        let ask = tolerance::Ask {
+            arm: self.arm,
+            lagrangian: &known,
+            domain: self.domain,
+            motion: self.motion,
+            measure: self.measure,
             scale,
-            fraction,
-            exact,
-            progress,
-        );
+            exact: (exact.0, &exact.1),
+            // A law that learns adds to the arm's own recursion, and coarse sines are certified for that alone.
+            simpler_arms: law != Some(LawSpec::Adaptive) && self.sines.rounds(),
+            progress: self.progress,
+        };
+        let choice = tolerance::cheapest(&ask, fraction);
         Model { reduced: choice.reduced, form: choice.form, code: choice.code }
     }
 }

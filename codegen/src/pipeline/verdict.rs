@@ -9,7 +9,7 @@ impl Generation {
     ///
     /// Costs are compared as the search for a model compares them, by [`Operations::price`].
     pub fn verdict(&self) -> String {
-        if self.reduced.selected.is_empty() {
+        if self.reduced.is_exact() {
             let peak = self.torque.as_ref().map(|torque| torque.peak.as_slice());
             return match self.loaded.spec.model.tolerance() {
                 Some(fraction) => why_exact(&self.lagrangian, peak, fraction),

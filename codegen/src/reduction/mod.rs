@@ -3,6 +3,7 @@
 mod basis;
 mod chebyshev;
 mod dictionary;
+mod dropped;
 mod exact;
 mod extremes;
 mod gram_schmidt;
@@ -16,8 +17,10 @@ mod separate;
 mod shared;
 mod sparse;
 mod tolerance;
+mod uniform;
 
 pub use dictionary::{Dictionary, minimax_sparse, over_dictionary};
+pub use dropped::{Dropped, without};
 pub use exact::exact;
 pub use extremes::extremes;
 pub use gram_schmidt::{GramSchmidt, Pick};
@@ -30,6 +33,7 @@ pub use separate::{minimax_each, separate};
 pub use shared::shared;
 pub use sparse::{Candidate, Group, Sparse, products};
 pub use tolerance::{Member, Problem, STRICTEST, family};
+pub(crate) use uniform::{solved, uniform};
 
 use crate::lagrangian::{Coefficient, Combination, Entry, Lagrangian};
 use crate::measure::Measure;
@@ -51,9 +55,16 @@ pub struct Reduced {
     pub sparse: Option<Sparse>,
     /// ∂α̂_m/∂u_k by index and uncertain parameter, for a law that learns u; empty where the model stays as it is.
     pub variations: Vec<Vec<Combination>>,
+    /// The arm whose exact model this is, where it is that of another arm.
+    pub dropped: Option<Dropped>,
 }
 
 impl Reduced {
+    /// True for the exact model.
+    pub fn is_exact(&self) -> bool {
+        self.selected.is_empty() && self.dropped.is_none()
+    }
+
     /// True where every parameter is a finite number.
     pub fn is_finite(&self) -> bool {
         let all = self.combinations.iter().chain(self.variations.iter().flatten());

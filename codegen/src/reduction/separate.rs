@@ -42,6 +42,7 @@ pub fn separate(lagrangian: &Lagrangian, measure: &Measure, functions: usize) ->
         simplified,
         variations: Vec::new(),
         sparse: None,
+        dropped: None,
     }
 }
 

@@ -42,5 +42,5 @@ pub fn shared(lagrangian: &Lagrangian, measure: &Measure, functions: usize) -> R
             terms
         })
         .collect();
-    Reduced { selected, combinations, simplified, variations: Vec::new(), sparse: None }
+    Reduced { selected, combinations, simplified, variations: Vec::new(), sparse: None, dropped: None }
 }

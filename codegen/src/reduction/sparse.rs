@@ -77,7 +77,14 @@ impl Sparse {
         let mut selected: Vec<usize> = combinations.iter().flatten().map(|&(l, _)| l).collect();
         selected.sort_unstable();
         selected.dedup();
-        Reduced { selected, combinations, simplified, variations: Vec::new(), sparse: Some(self) }
+        Reduced {
+            selected,
+            combinations,
+            simplified,
+            variations: Vec::new(),
+            sparse: Some(self),
+            dropped: None,
+        }
     }
 
     /// α̂_m of the model as it is written, and whether it differs from α_m in form.

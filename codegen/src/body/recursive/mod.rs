@@ -7,6 +7,7 @@ mod vector;
 mod wrench;
 
 pub use search::recursive;
+pub(crate) use search::{Plan, cost, planned};
 
 use crate::arm::{Arm, Joint, JointKind};
 use crate::graph::{Builder, Expr, Graph, Variable};

@@ -9,10 +9,43 @@ use crate::graph::Graph;
 /// What a sine and cosine count beside one multiplication or addition.
 const TRIG: usize = 30;
 
+/// A way to compute the recursion, found for one arm and good for any other with the same joints.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Plan {
+    choices: Vec<Choice>,
+    units: Units,
+}
+
+const METRES: Units = Units { acceleration: 1.0, force: 1.0 };
+
 /// The recursion with the fewest operations that a descent finds: link by link, one choice at a time, until none pays.
 pub fn recursive(arm: &Arm) -> Graph {
-    let metres = Units { acceleration: 1.0, force: 1.0 };
-    let mut best = Candidate::new(arm, vec![Choice::default(); arm.dof()], metres);
+    planned(arm, &[]).0
+}
+
+/// What the recursion of `arm` costs by `plan`, in the measure of the search; [`usize::MAX`] where its numbers overflow.
+pub(crate) fn cost(arm: &Arm, plan: &Plan) -> usize {
+    Candidate::new(arm, plan.choices.clone(), plan.units).cost
+}
+
+/// As [`recursive`], where the descent begins from some other plans, too; also where the best one ends.
+pub(crate) fn planned(arm: &Arm, plans: &[Plan]) -> (Graph, Plan) {
+    let plain = descended(arm, Candidate::new(arm, vec![Choice::default(); arm.dof()], METRES));
+    let mut best = plans.iter().fold(plain, |mut best, plan| {
+        best.take_cheaper(descended(arm, Candidate::new(arm, plan.choices.clone(), plan.units)));
+        best
+    });
+    let graph = if best.cost == usize::MAX {
+        // Its numbers leave no room for moving parameters; they stay where they are.
+        build(arm, &best.choices, &METRES, true)
+    } else {
+        build(&based(arm, &best.choices), &best.choices, &best.units, true).factored()
+    };
+    (graph, Plan { choices: std::mem::take(&mut best.choices), units: best.units })
+}
+
+/// The end of the descent from `best`.
+fn descended(arm: &Arm, mut best: Candidate) -> Candidate {
     for _ in 0..SWEEPS {
         let before = best.cost;
         for j in 0..arm.dof() {
@@ -38,11 +71,7 @@ pub fn recursive(arm: &Arm) -> Graph {
             break;
         }
     }
-    if best.cost == usize::MAX {
-        // Its numbers leave no room for moving parameters; they stay where they are.
-        return build(arm, &best.choices, &metres, true);
-    }
-    build(&based(arm, &best.choices), &best.choices, &best.units, true).factored()
+    best
 }
 
 const SWEEPS: usize = 6;

@@ -23,7 +23,7 @@ pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
     lines.push(format!("exact:   {}", cost(&view.operations.exact)));
     lines.push(format!("module:  {} bytes", view.size));
     lines.push(format!("verdict: {}", view.verdict));
-    let bounded = !view.selected.is_empty() || !generation.code.sines.rounds();
+    let bounded = !generation.reduced.is_exact() || !generation.code.sines.rounds();
     if bounded {
         let largest = |values: &mut dyn Iterator<Item = &f64>| values.fold(0.0_f64, |a, &b| a.max(b));
         lines.push(format!(

@@ -1,0 +1,48 @@
+//! Certificates of the models that are looked at.
+
+use std::collections::BTreeMap;
+
+use super::Ask;
+use crate::bounds::{Certificate, Effort, certified_beside, separate_error, torque_exceeds};
+use crate::measure::Domain;
+use crate::reduction::Reduced;
+
+/// Work for each coefficient's certificate.
+const EFFORT: Effort = Effort { tolerance: 0.03, boxes: 2000, starts: 3, seek_tube: false };
+/// Around a motion, where the sum of the coefficients' largest errors exceeds the limit by more than this, the sharper
+/// sum of the errors at the same position is not tried: its proof would not end.
+const HOPELESS: f64 = 1.8;
+
+/// Certificates by coefficient and form: members of a family share most.
+#[derive(Default)]
+pub(super) struct Proofs {
+    known: BTreeMap<(usize, Vec<(usize, u64)>), Certificate>,
+}
+
+impl Proofs {
+    /// Whether the torque errors of `reduced` are certified to stay within `limits`, N·m or N.
+    pub fn within(&mut self, ask: &Ask, reduced: &Reduced, limits: &[f64]) -> bool {
+        let Ask { lagrangian, domain, motion, .. } = *ask;
+        let Some(scale) = ask.scale else { return false };
+        let certificates = self.of(ask, reduced);
+        let separate = separate_error(lagrangian, &certificates, &scale.rates);
+        let part = separate.iter().zip(limits).map(|(e, limit)| e / limit).fold(0.0, f64::max);
+        let exceeds =
+            || torque_exceeds(lagrangian, reduced, domain, motion, &certificates, &scale.rates, limits);
+        let hopeful = match domain {
+            Domain::Workspace(_) => true,
+            _ => part <= HOPELESS,
+        };
+        part <= 1.0 || !ask.is_long() && hopeful && exceeds().is_none()
+    }
+
+    fn of(&mut self, ask: &Ask, reduced: &Reduced) -> Vec<Certificate> {
+        let key = |m: usize| (m, reduced.combinations[m].iter().map(|&(l, k)| (l, k.to_bits())).collect());
+        let known = |m: usize| self.known.get(&key(m)).cloned();
+        let all = certified_beside(ask.lagrangian, reduced, ask.domain, ask.motion, &EFFORT, known);
+        for (m, certificate) in all.iter().enumerate() {
+            self.known.insert(key(m), certificate.clone());
+        }
+        all
+    }
+}
