@@ -12,6 +12,7 @@ fn main() {
         "puma3_separate",
         "puma3_union",
         "puma3_tolerance",
+        "stanford_tolerance",
     ];
     let config =
         specs.iter().fold(gramforge::Config::new(), |config, name| config.spec(format!("data/{name}.json")));

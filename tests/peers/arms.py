@@ -16,8 +16,15 @@ ARMS = {
     "panda": ("tests/data/panda.json", "Panda"),
 }
 
-# Reduced models, by the tolerance in per cent of each joint's peak torque: over the workspace of this arm.
-REDUCED = ("puma560", "tests/data/puma560_workspace.json", {"1": 0.01, "2_5": 0.025, "5": 0.05})
+# Reduced models by arm: specification, what it is reduced over, and tolerances as parts of each joint's peak torque.
+REDUCED = {
+    "puma560": (
+        "tests/data/puma560_workspace.json",
+        "over its workspace",
+        {"1": 0.01, "2_5": 0.025, "5": 0.05},
+    ),
+    "panda": ("tests/data/panda.json", "in a tube of 0.05 rad around a motion", {"1": 0.01, "5": 0.05}),
+}
 
 STATES = 512
 SPEED, ACCELERATION = 2.0, 10.0
@@ -66,20 +73,26 @@ class Arm:
 
 def specification(name, trig):
     """The specification of the arm's exact model, and nothing else that would take time to generate."""
-    source = ROOT / ARMS[name][0]
-    spec = json.loads(source.read_text())
-    if "urdf" in spec["arm"]:
-        spec["arm"]["urdf"] = str(source.parent / spec["arm"]["urdf"])
+    spec = read(ROOT / ARMS[name][0])
     kept = {"name": f"{name}_{trig}", "arm": spec["arm"], "motion": spec["motion"], "model": "exact"}
     return kept if trig == "libm" else kept | {"emit": {"trig": trig}}
 
 
-def reduced_specification(tolerance, trig):
-    """The specification of a reduced model that stays within a tolerance, by its key in REDUCED."""
-    name, source, tolerances = REDUCED
-    spec = json.loads((ROOT / source).read_text())
-    spec |= {"name": f"{name}_within_{tolerance}_{trig}", "model": {"tolerance": {"torque": tolerances[tolerance]}}}
-    return spec if trig == "libm" else spec | {"emit": {"trig": trig}}
+def reduced_specification(name, tolerance, trig):
+    """The specification of a reduced model of an arm that stays within a tolerance, by its key in REDUCED."""
+    source, _, tolerances = REDUCED[name]
+    spec = read(ROOT / source)
+    kept = {key: spec[key] for key in ("arm", "motion", "measure") if key in spec}
+    kept |= {"name": f"{name}_within_{tolerance}_{trig}", "model": {"tolerance": {"torque": tolerances[tolerance]}}}
+    return kept if trig == "libm" else kept | {"emit": {"trig": trig}}
+
+
+def read(source):
+    """A specification whose files are found from anywhere."""
+    spec = json.loads(source.read_text())
+    if "urdf" in spec["arm"]:
+        spec["arm"]["urdf"] = str(source.parent / spec["arm"]["urdf"])
+    return spec
 
 
 def snapped(x):

@@ -95,11 +95,11 @@ def generated(names, gramforge):
     folder, made = BUILD / "modules", {}
     folder.mkdir(exist_ok=True)
     trigs = ["libm"]
-    arm, _, tolerances = REDUCED
     kinds = [(name, name in names, lambda trig, name=name: specification(name, trig)) for name in ARMS]
-    for tolerance in tolerances:
-        specify = lambda trig, tolerance=tolerance: reduced_specification(tolerance, trig)
-        kinds.append((f"{arm}_within_{tolerance}", arm in names, specify))
+    for arm, (_, _, tolerances) in REDUCED.items():
+        for tolerance in tolerances:
+            specify = lambda trig, arm=arm, tolerance=tolerance: reduced_specification(arm, tolerance, trig)
+            kinds.append((f"{arm}_within_{tolerance}", arm in names, specify))
     for name, wanted, specify in kinds:
         for trig in ("libm", "polynomial"):
             path = BUILD / f"{name}_{trig}.json"
@@ -193,9 +193,9 @@ def compared(arm, natives, trigs, made):
     return [{"implementation": name} | figures for name, _, figures in rows]
 
 
-def reduced(trigs, made, rows):
-    """Rows of the reduced models, with the certified error and instructions as a part of each CasADi row's."""
-    arm, _, tolerances = REDUCED
+def reduced(arm, trigs, made, rows):
+    """Rows of the reduced models of an arm, with the certified error and instructions as a part of each CasADi row's."""
+    tolerances = REDUCED[arm][2]
     out = []
     for tolerance in tolerances:
         for trig in trigs:
@@ -247,8 +247,8 @@ def main():
     for name in names:
         print(f"measuring {name}", flush=True)
         result["arms"][name] = compared(Arm(name), natives, trigs, made)
-    if REDUCED[0] in names:
-        result["reduced"] = reduced(trigs, made, result["arms"][REDUCED[0]])
+    measured = [arm for arm in REDUCED if arm in names]
+    result["reduced"] = {arm: reduced(arm, trigs, made, result["arms"][arm]) for arm in measured}
     (BUILD / "comparison.json").write_text(json.dumps(result, indent=2, ensure_ascii=False) + "\n")
     (BUILD / "comparison.md").write_text(markdown(result))
     print(markdown(result))

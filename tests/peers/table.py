@@ -8,7 +8,8 @@ OURS, CASADI = "Gramforge exact", "CasADi C"
 
 def markdown(result):
     """A summary for README, then every figure, then what was measured with."""
-    parts = [summary(result), reduced(result), details(result), footnotes(result)]
+    tables = [reduced(arm, rows) for arm, rows in result["reduced"].items()]
+    parts = [summary(result), *tables, details(result), footnotes(result)]
     return "\n\n".join("\n".join(lines) for lines in parts if lines) + "\n"
 
 
@@ -30,14 +31,11 @@ def summary(result):
     return lines
 
 
-def reduced(result):
+def reduced(arm, rows):
     """The reduced models of one arm beside CasADi's code for the exact one."""
-    rows = result.get("reduced", [])
-    if not rows:
-        return []
     peers = list(rows[0]["parts"])
     heads = ["tolerance", "sines", "certified", "operations", "instructions", *(f"/ {peer}" for peer in peers)]
-    lines = [f"{ARMS[REDUCED[0]][1]} over its workspace, reduced to a part of each joint's peak torque:", ""]
+    lines = [f"{ARMS[arm][1]} {REDUCED[arm][1]}, reduced to a part of each joint's peak torque:", ""]
     lines += line([*heads, "code bytes", "source bytes", "generation, CPU s"]) + line(["---"] * (len(heads) + 3))
     for row in rows:
         lines += line(

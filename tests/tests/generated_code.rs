@@ -26,7 +26,7 @@ macro_rules! included {
 }
 
 included!(ur5 stanford arm3_sinusoids arm3_waypoints arm3_csv arm3_polynomial arm3_table);
-included!(puma3_separate puma3_union puma3_tolerance);
+included!(puma3_separate puma3_union puma3_tolerance stanford_tolerance);
 
 /// A module as `agrees` takes it: its name, its model, and its constants.
 macro_rules! module {
@@ -120,7 +120,10 @@ fn modules_of_a_build_script_agree_with_their_generation() {
     module!(puma3_separate, Puma3Separate);
     module!(puma3_union, Puma3Union);
     module!(puma3_tolerance, Puma3Tolerance);
-    assert_eq!(generation("puma3_tolerance").form.name(), "sparse");
+    module!(stanford_tolerance, StanfordTolerance);
+    let sparse = generation("puma3_tolerance").reduced.sparse;
+    assert!(sparse.is_some_and(|model| model.absolute.is_some()), "a sparse model in absolute angles");
+    assert!(generation("stanford_tolerance").reduced.dropped.is_some(), "the recursion of a simpler arm");
     assert_eq!(generation("puma3_union").form.name(), "sparse");
     for ready in [ur5::controller().is_ok(), stanford::controller().is_ok(), arm3_csv::controller().is_ok()] {
         assert!(ready);

@@ -41,6 +41,9 @@ struct Inspection<'a> {
     coefficients: usize,
     terms: usize,
     selected: Vec<String>,
+    /// Inertial parameters left out, where the model is the exact one of a simpler arm.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    dropped: &'a [String],
     bounds: BoundsView<'a>,
     /// Certified bound on the torque error by joint, N·m or N, for rates up to the motion's own, over a workspace
     /// up to the joints' limits.

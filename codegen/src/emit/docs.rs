@@ -34,8 +34,8 @@ pub(super) fn model(module: &Module) -> Vec<String> {
         let (name, count) = (module.name, kept.len());
         lines.push(if let Some(dropped) = &module.reduced.dropped {
             format!(
-                " Reduced model of `{name}`, {n} joints: the exact one of an arm whose base parameters differ, in {} form. \
-                 Without {}.",
+                " Reduced model of `{name}`, {n} joints, in {} form: the exact one of an arm with other inertial parameters, \
+                 without {} (mx: mass times x of its centre; Σ: ∫ x xᵀ dm).",
                 module.form.name(),
                 dropped.lost()
             )

@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Reduced, plus};
-use crate::arm::Arm;
+use super::plus;
 use crate::lagrangian::{Combination, Entry, Lagrangian};
 
 /// Coefficients nearer to the exact ones than this part of the largest term differ by rounding alone.
@@ -11,11 +10,12 @@ const SAME: f64 = 1e-13;
 /// Terms below this part of the largest may be missing on one side: the expansion drops them.
 const NOISE: f64 = 4e-12;
 
-/// An arm with other inertial parameters, many of them zero, whose exact model stands for the arm's own.
+/// Entries that the exact model lacks may have terms below this part of the largest.
+const STRAY: f64 = 1e-12;
+
+/// What is left out where the exact model of another arm stands for that of the arm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dropped {
-    /// It.
-    pub arm: Arm,
     /// What its recursion may be off by in f64, by coefficient: rounding, and terms that the expansion lacks.
     pub rounding: Vec<f64>,
     /// The parameters that it lacks, in words.
@@ -33,28 +33,38 @@ impl Dropped {
     }
 }
 
-/// The model of `arm`, expanded as `own`, over the functions and coefficients of `lagrangian`, and what each
-/// combination lacks of it.
+/// A model over the functions and coefficients of another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expressed {
+    /// α̂_m by index.
+    pub combinations: Vec<Combination>,
+    /// Whether that differs from α_m.
+    pub simplified: Vec<bool>,
+    /// What each combination lacks of the model, as a sum of magnitudes.
+    pub lacking: Vec<f64>,
+}
+
+/// The model `own` of another arm over the functions and coefficients of `lagrangian`.
 ///
 /// `None` where `own` has an entry or a function that `lagrangian` lacks, or where entries that are one coefficient there
 /// differ.
-pub fn without(lagrangian: &Lagrangian, own: &Lagrangian, arm: &Arm) -> Option<(Reduced, Vec<f64>)> {
+pub fn expressed(lagrangian: &Lagrangian, own: &Lagrangian) -> Option<Expressed> {
     let terms = lagrangian.coefficients.iter().flat_map(|c| &c.terms);
     let largest = terms.fold(0.0_f64, |most, term| most.max(term.1.abs()));
     let noise = NOISE * largest;
     let mut entries: BTreeMap<Entry, (usize, f64)> = BTreeMap::new();
-    let mut expressed: Vec<(Combination, f64)> = Vec::new();
+    let mut known: Vec<(Combination, f64)> = Vec::new();
     for (index, coefficient) in own.coefficients.iter().enumerate() {
-        let mut known = Combination::new();
+        let mut terms = Combination::new();
         let mut lost = 0.0;
         for &(l, k) in &coefficient.terms {
             match lagrangian.functions.binary_search(&own.functions[l]) {
-                Ok(place) => known.push((place, k)),
+                Ok(place) => terms.push((place, k)),
                 Err(_) if k.abs() <= noise => lost += k.abs(),
                 Err(_) => return None,
             }
         }
-        expressed.push((known, lost));
+        known.push((terms, lost));
         entries.extend(coefficient.places.iter().map(|place| (place.entry, (index, place.sign))));
     }
     let mut combinations = Vec::new();
@@ -66,9 +76,9 @@ pub fn without(lagrangian: &Lagrangian, own: &Lagrangian, arm: &Arm) -> Option<(
         for place in &coefficient.places {
             let here = match entries.remove(&place.entry) {
                 Some((index, sign)) => {
-                    let (known, missing) = &expressed[index];
+                    let (terms, missing) = &known[index];
                     lost = lost.max(own.truncation + missing);
-                    known.iter().map(|&(l, k)| (l, place.sign * sign * k)).collect()
+                    terms.iter().map(|&(l, k)| (l, place.sign * sign * k)).collect()
                 }
                 None => Combination::new(),
             };
@@ -90,18 +100,7 @@ pub fn without(lagrangian: &Lagrangian, own: &Lagrangian, arm: &Arm) -> Option<(
         simplified.push(differs);
         lacking.push(lost);
     }
-    let stray = |index: usize| expressed[index].0.iter().any(|term| term.1.abs() > noise);
-    if entries.values().any(|&(index, _)| stray(index)) {
-        return None;
-    }
-    let dropped = Dropped { arm: arm.clone(), rounding: vec![0.0; lacking.len()], parameters: Vec::new() };
-    let reduced = Reduced {
-        selected: Vec::new(),
-        combinations,
-        simplified,
-        sparse: None,
-        variations: Vec::new(),
-        dropped: Some(dropped),
-    };
-    Some((reduced, lacking))
+    let stray = |index: usize| known[index].0.iter().any(|term| term.1.abs() > STRAY * largest);
+    let none_strays = !entries.values().any(|&(index, _)| stray(index));
+    none_strays.then_some(Expressed { combinations, simplified, lacking })
 }

@@ -20,7 +20,7 @@ mod tolerance;
 mod uniform;
 
 pub use dictionary::{Dictionary, minimax_sparse, over_dictionary};
-pub use dropped::{Dropped, without};
+pub use dropped::{Dropped, Expressed, expressed};
 pub use exact::exact;
 pub use extremes::extremes;
 pub use gram_schmidt::{GramSchmidt, Pick};
@@ -55,7 +55,7 @@ pub struct Reduced {
     pub sparse: Option<Sparse>,
     /// ∂α̂_m/∂u_k by index and uncertain parameter, for a law that learns u; empty where the model stays as it is.
     pub variations: Vec<Vec<Combination>>,
-    /// The arm whose exact model this is, where it is that of another arm.
+    /// Where it is the exact model of another arm.
     pub dropped: Option<Dropped>,
 }
 

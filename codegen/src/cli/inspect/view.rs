@@ -61,6 +61,7 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
         coefficients: lagrangian.coefficients.len(),
         terms: lagrangian.terms(),
         selected: functions(lagrangian, reduced),
+        dropped: reduced.dropped.as_ref().map_or(&[], |dropped| &dropped.parameters),
         bounds: BoundsView {
             kind: "certified",
             D: &bounds.d,

@@ -19,6 +19,8 @@ const LAST: f64 = 0.5;
 const NEARLY: f64 = 2.5;
 /// Moves that are looked at closely at a step, the most promising first.
 const TRIED: usize = 40;
+/// So many at a time, until one is admitted.
+const TOGETHER: usize = 8;
 /// Of these, so many are refitted.
 const REFITTED: usize = 2;
 
@@ -121,8 +123,14 @@ impl Descent<'_> {
             })
             .collect();
         found.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let errors: Vec<f64> =
-            found.par_iter().take(TRIED).map(|(_, next)| self.table.error(&next.theta)).collect();
+        let mut errors: Vec<f64> = Vec::new();
+        for some in found.chunks(TOGETHER).take(TRIED / TOGETHER) {
+            let more: Vec<f64> = some.par_iter().map(|(_, next)| self.table.error(&next.theta)).collect();
+            errors.extend(more);
+            if errors.iter().any(|&error| error <= level) {
+                break;
+            }
+        }
         let admitted = errors.iter().position(|&error| error <= level);
         let before = admitted.unwrap_or(errors.len());
         let better = if self.refits {

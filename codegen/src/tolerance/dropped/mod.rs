@@ -16,11 +16,11 @@ use crate::body::Form;
 use crate::bounds::beside_expansion;
 use crate::graph::Graph;
 use crate::lagrangian::{Lagrangian, expand};
-use crate::reduction::without;
+use crate::reduction::{Dropped, Expressed, Reduced, expressed};
 use table::Table;
 
 /// Coefficients times parameters beyond which nothing is refitted: it would take minutes.
-const REFITTED: usize = 3000;
+const REFITTED: usize = 30000;
 
 /// What the models must be good for.
 #[derive(Clone, Copy, Debug)]
@@ -73,12 +73,17 @@ impl Member {
 
     /// The model, where |q_j| ≤ `reach`; `None` where it is not one over the functions of `lagrangian`.
     pub fn choice(self, lagrangian: &Lagrangian, reach: &[f64]) -> Option<Choice> {
-        let (mut reduced, lacking) = without(lagrangian, &expand(&self.arm), &self.arm)?;
-        let rounding = beside_expansion(lagrangian, &reduced.combinations, &lacking, &self.arm, reach);
-        if let Some(dropped) = &mut reduced.dropped {
-            dropped.rounding = rounding;
-            dropped.parameters = self.lost.iter().map(|p| p.describe(&self.arm)).collect();
-        }
+        let Expressed { combinations, simplified, lacking } = expressed(lagrangian, &expand(&self.arm))?;
+        let rounding = beside_expansion(lagrangian, &combinations, &lacking, &self.arm, reach);
+        let parameters = self.lost.iter().map(|p| p.describe(&self.arm)).collect();
+        let reduced = Reduced {
+            selected: Vec::new(),
+            combinations,
+            simplified,
+            sparse: None,
+            variations: Vec::new(),
+            dropped: Some(Dropped { rounding, parameters }),
+        };
         Some(Choice { reduced, form: Form::Recursive, code: self.code })
     }
 }

@@ -47,6 +47,12 @@ arms! {
     puma560_within_1_libm Puma560Within1Libm 6
     puma560_within_2_5_libm Puma560Within25Libm 6
     puma560_within_5_libm Puma560Within5Libm 6
+    panda_within_1_libm PandaWithin1Libm 7
+    panda_within_5_libm PandaWithin5Libm 7
+    #[cfg(feature = "polynomial")]
+    panda_within_1_polynomial PandaWithin1Polynomial 7
+    #[cfg(feature = "polynomial")]
+    panda_within_5_polynomial PandaWithin5Polynomial 7
     #[cfg(feature = "polynomial")]
     puma560_within_1_polynomial Puma560Within1Polynomial 6
     #[cfg(feature = "polynomial")]
