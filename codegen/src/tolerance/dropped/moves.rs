@@ -51,15 +51,17 @@ pub(super) fn moves(kept: &Kept, parameters: &[Inertial], joints: usize) -> Vec<
                 add(groups);
             }
         }
-        if let (Some(x), Some(y)) = (place(joint, Second(0, 0)), place(joint, Second(1, 1))) {
-            if alive(&x) && alive(&y) && !kept.groups.iter().any(|g| g.contains(&x) && g.contains(&y)) {
-                let mut groups = without(&[x, y]);
-                groups.push(vec![x, y]);
-                groups.sort();
-                add(groups.clone());
-                groups.retain(|group| !group.iter().any(|p| cross.contains(p)));
-                add(groups);
-            }
+        if let (Some(x), Some(y)) = (place(joint, Second(0, 0)), place(joint, Second(1, 1)))
+            && alive(&x)
+            && alive(&y)
+            && !kept.groups.iter().any(|g| g.contains(&x) && g.contains(&y))
+        {
+            let mut groups = without(&[x, y]);
+            groups.push(vec![x, y]);
+            groups.sort();
+            add(groups.clone());
+            groups.retain(|group| !group.iter().any(|p| cross.contains(p)));
+            add(groups);
         }
     }
     out
