@@ -13,6 +13,8 @@ mod design;
 mod files;
 #[path = "bad_specs/input.rs"]
 mod input;
+#[path = "bad_specs/model.rs"]
+mod model;
 #[path = "bad_specs/motion.rs"]
 mod motion;
 #[path = "bad_specs/several.rs"]

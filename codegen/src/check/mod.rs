@@ -107,34 +107,50 @@ fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> 
     motion
 }
 
+/// What mends a model that does not go with the rest.
+const MODEL: &str = "write `model` as {\"shared\": {\"functions\": N}} or \"exact\"";
+const HARMONIC: &str = "leave out `dictionary`";
+
 /// What goes with certain models alone.
 fn going_together(spec: &Spec, faults: &mut Faults) {
     let chosen = spec.model.tolerance().is_some();
     let products = spec.dictionary != DictionarySpec::Harmonic && !chosen && spec.model != ModelSpec::Exact;
+    let apart = matches!(spec.model, ModelSpec::Separate { .. });
+    let asked = match spec.model {
+        ModelSpec::Auto => "`model` is `auto`, as it is where none is written",
+        ModelSpec::Tolerance { .. } => "`model` is `tolerance`",
+        ModelSpec::Exact => "`model` is `exact`",
+        _ if spec.dictionary == DictionarySpec::Product => "`dictionary` is `product`",
+        _ if spec.dictionary == DictionarySpec::Union => "`dictionary` is `union`",
+        ModelSpec::Separate { .. } => "`model` is `separate`",
+        ModelSpec::Shared { .. } => "`model` is `shared`",
+    };
     if matches!(spec.emit.trig, TrigSpec::Table { .. }) && (chosen || products) {
-        faults.push(
-            "emit.trig",
-            "takes a table, which goes with `shared`, `separate` and `exact` models of the harmonic dictionary alone \
-             (without `model` it is `auto`)",
-            "write \"polynomial\" or \"libm\", or name such a `model`",
+        let problem = format!(
+            "takes a table, which goes with `shared`, `separate` and `exact` models of the harmonic dictionary alone, and \
+             {asked}"
         );
+        let other = if products { HARMONIC } else { MODEL };
+        faults.push("emit.trig", problem, format!("write \"polynomial\" or \"libm\", or {other}"));
     }
     if spec.dictionary != DictionarySpec::Harmonic && (chosen || spec.model == ModelSpec::Exact) {
         faults.push(
             "dictionary",
-            "is for `shared` and `separate` models alone",
-            "leave it out, or name such a `model`",
+            format!("is for `shared` and `separate` models alone, and {asked}"),
+            "leave it out, or write `model` as {\"shared\": {\"functions\": N}}",
         );
     }
     let adaptive = spec.control.as_ref().is_some_and(|control| control.law == LawSpec::Adaptive);
-    let apart = matches!(spec.model, ModelSpec::Separate { .. });
     if adaptive && (chosen || products || apart) {
-        faults.push(
-            "control.law",
-            "is `adaptive`, which goes with `shared` and `exact` models of the harmonic dictionary alone (without \
-             `model` it is `auto`)",
-            "write `model` as {\"shared\": {\"functions\": N}} or \"exact\", or take law `report` or `tight`",
+        let problem = format!(
+            "is `adaptive`, which goes with `shared` and `exact` models of the harmonic dictionary alone, and {asked}"
         );
+        let other = match (products, apart) {
+            (true, true) => format!("{HARMONIC} and {MODEL}"),
+            (true, false) => HARMONIC.to_string(),
+            (false, _) => MODEL.to_string(),
+        };
+        faults.push("control.law", problem, format!("{other}, or take law `report` or `tight`"));
     }
 }
 

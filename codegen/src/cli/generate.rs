@@ -71,12 +71,16 @@ impl Generate {
             (false, true) => "written",
             (false, false) => "unchanged",
         };
-        let Operations { mul, add, trig_pairs } = view.operations;
+        let cost = |o: &Operations| format!("{} mul, {} add, {} sin-cos pairs", o.mul, o.add, o.trig_pairs);
         let torque = output.generation.torque.as_ref();
         let error = torque.map_or(String::new(), |torque| format!(" {}", torque_in_words(torque)));
         format!(
-            "{}: {state}, {} bytes, {mul} mul, {add} add, {trig_pairs} sin-cos pairs; {}{error}\n",
-            view.path, view.bytes, view.verdict
+            "{}: {state}, {} bytes, {}; exact {}; {}{error}\n",
+            view.path,
+            view.bytes,
+            cost(&view.operations),
+            cost(&view.exact_operations),
+            view.verdict
         )
     }
 }

@@ -105,7 +105,8 @@ pub(super) fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Fau
     if functions > p {
         let whose = match spec.dictionary {
             DictionarySpec::Harmonic => "exact model",
-            DictionarySpec::Product | DictionarySpec::Union => "dictionary",
+            DictionarySpec::Product => "dictionary `product`",
+            DictionarySpec::Union => "dictionary `union`",
         };
         let problem = format!("is {functions}, but the {whose} has {p} functions");
         faults.push(field, problem, format!("write a number from 1 to {p}, or `\"exact\"`"));

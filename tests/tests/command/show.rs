@@ -35,6 +35,62 @@ fn inspect_of_the_exact_model_leaves_nothing_out() {
 }
 
 #[test]
+fn the_verdict_follows_from_the_operations() {
+    // Reduced and cheaper, reduced and dearer, exact, and exact because nothing cheaper keeps within the tolerance.
+    let strict = |spec: &mut Value| spec["model"] = json!({ "tolerance": { "torque": 1e-6 } });
+    let cases: [(&str, &dyn Fn(&mut Value), &str); 4] = [
+        ("arm3_xi1", &|_| {}, "reducing pays here"),
+        ("arm3_xi2", &|spec| spec["model"] = json!({ "shared": { "functions": 4 } }), "is not dearer"),
+        ("arm3_exact", &|_| {}, "this is the exact model."),
+        ("arm3_xi2", &strict, "no sparse model is sought for tolerances below 0.31 %"),
+    ];
+    let folder = tempfile::tempdir().expect("a folder");
+    for (index, (name, edit, words)) in cases.into_iter().enumerate() {
+        let mut spec = value(name);
+        edit(&mut spec);
+        let path = folder.path().join(format!("arm{index}.json"));
+        fs::write(&path, spec.to_string()).expect("written");
+        let view = run(["inspect", &text(&path), "--json"]).json();
+        let verdict = view["verdict"].as_str().expect("a sentence");
+        assert!(verdict.contains(words), "{name}: {verdict}");
+        assert!(verdict.ends_with('.') && verdict.matches(". ").count() == 0, "one sentence: {verdict}");
+        let price = |kind: &str| {
+            let count = |key: &str| view["operations"][kind][key].as_u64().expect("a count");
+            count("mul") + count("add") + 12 * count("trig_pairs")
+        };
+        assert_eq!(verdict.contains("reducing pays"), price("reduced") < price("exact"), "{verdict}");
+        let error = view["torque_error"].as_array().expect("a list");
+        assert_eq!((error.len(), view["peak_torque"].as_array().map(Vec::len)), (3, Some(3)));
+        // The same sentences wherever it is spoken of.
+        let out = folder.path().join("out");
+        let mut command = gramforge();
+        let told = finish(command.arg("generate").arg(&path).arg("--out").arg(&out)).expect(0).stdout;
+        let module = fs::read_to_string(out.join(format!("{name}.rs"))).expect("generated");
+        let shown = run(["inspect", &text(&path)]).expect(0).stdout;
+        for sayer in [&told, &module, &shown] {
+            assert!(sayer.contains(verdict), "{verdict}: {sayer}");
+            assert!(sayer.contains("Certified torque error"), "{sayer}");
+        }
+        assert_eq!(view["size"], module.len());
+        assert!(
+            told.contains(&format!("{} bytes", module.len()))
+                && shown.contains(&format!("{} bytes", module.len()))
+        );
+        for kind in ["reduced", "exact"] {
+            let costs = &view["operations"][kind];
+            let short =
+                format!("{} mul, {} add, {} sin-cos pairs", costs["mul"], costs["add"], costs["trig_pairs"]);
+            assert!(told.contains(&short) && shown.contains(&short), "{short}: {told}{shown}");
+            let long = format!(
+                "{} multiplications, {} additions, {} sine-cosine pairs",
+                costs["mul"], costs["add"], costs["trig_pairs"]
+            );
+            assert!(module.contains(&long), "{long}: {module}");
+        }
+    }
+}
+
+#[test]
 fn inspect_in_words() {
     let shown = run(["inspect", &text(&committed("arm3_xi2"))]).expect(0).stdout;
     assert!(shown.contains("11 functions, 9 distinct coefficients, 20 terms"), "{shown}");

@@ -38,7 +38,7 @@ pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
             printed_up(largest(&mut view.bounds.G.iter())),
         ));
     }
-    if let Some(torque) = generation.torque.as_ref().filter(|_| bounded) {
+    if let Some(torque) = generation.torque.as_ref() {
         lines.push(torque_in_words(torque));
     }
     for p in &view.uncertainty {
