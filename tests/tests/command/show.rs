@@ -34,15 +34,18 @@ fn inspect_of_the_exact_model_leaves_nothing_out() {
     assert_eq!(view["operations"]["reduced"], view["operations"]["exact"]);
 }
 
+/// A committed specification, what is changed of it, and words of the verdict.
+type Judged = (&'static str, fn(&mut Value), &'static str);
+
 #[test]
 fn the_verdict_follows_from_the_operations() {
     // Reduced and cheaper, reduced and dearer, exact, and exact because nothing cheaper keeps within the tolerance.
     let strict = |spec: &mut Value| spec["model"] = json!({ "tolerance": { "torque": 1e-6 } });
-    let cases: [(&str, &dyn Fn(&mut Value), &str); 4] = [
-        ("arm3_xi1", &|_| {}, "reducing pays here"),
-        ("arm3_xi2", &|spec| spec["model"] = json!({ "shared": { "functions": 4 } }), "is not dearer"),
-        ("arm3_exact", &|_| {}, "this is the exact model."),
-        ("arm3_xi2", &strict, "no sparse model is sought for tolerances below 0.31 %"),
+    let cases: [Judged; 4] = [
+        ("arm3_xi1", |_| {}, "reducing pays here"),
+        ("arm3_xi2", |spec| spec["model"] = json!({ "shared": { "functions": 4 } }), "is not dearer"),
+        ("arm3_exact", |_| {}, "this is the exact model."),
+        ("arm3_xi2", strict, "no sparse model is sought for tolerances below 0.31 %"),
     ];
     let folder = tempfile::tempdir().expect("a folder");
     for (index, (name, edit, words)) in cases.into_iter().enumerate() {
