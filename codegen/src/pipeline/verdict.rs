@@ -12,7 +12,7 @@ impl Generation {
         if self.reduced.is_exact() {
             let peak = self.torque.as_ref().map(|torque| torque.peak.as_slice());
             return match self.loaded.spec.model.tolerance() {
-                Some(fraction) => why_exact(&self.lagrangian, peak, fraction),
+                Some(fraction) => why_exact(&self.arm, &self.lagrangian, peak, fraction),
                 None => "this is the exact model.".to_string(),
             };
         }

@@ -85,15 +85,16 @@ impl Choice {
     }
 }
 
-/// Why a model to a tolerance is the exact one, in one sentence; `peak` is the largest torque by joint, N·m or N.
-pub fn why_exact(lagrangian: &Lagrangian, peak: Option<&[f64]>, fraction: f64) -> String {
+/// Why a model of `arm` to a tolerance is the exact one, in one sentence; `peak` is the largest torque by joint, N·m or N.
+pub fn why_exact(arm: &Arm, lagrangian: &Lagrangian, peak: Option<&[f64]>, fraction: f64) -> String {
     let neither = |sparse: String| {
         format!(
             "{sparse}, and no simpler arm's recursion that was found within the tolerance is cheaper than the exact one"
         )
     };
-    let why = if peak.is_none_or(|peak| peak.iter().any(|&peak| peak <= 0.0)) {
-        "a joint without torque has no tolerance".to_string()
+    let still = arm.joints.iter().zip(peak.unwrap_or_default()).find(|(_, peak)| **peak <= 0.0);
+    let why = if let Some((joint, _)) = still {
+        format!("the exact model takes no torque of {}, of which there is no part to allow", joint.name)
     } else if lagrangian.terms() > LONG {
         let terms = lagrangian.terms();
         neither(format!("an expansion of {terms} terms is too long for a search of sparse models"))

@@ -13,10 +13,13 @@ const EFFORT: Effort = Effort { tolerance: 0.03, boxes: 2000, starts: 3, seek_tu
 /// sum of the errors at the same position is not tried: its proof would not end.
 const HOPELESS: f64 = 1.8;
 
+/// A coefficient, what it is made of, and what it can round by.
+type Key = (usize, Vec<(usize, u64)>, [u64; 3]);
+
 /// Certificates by coefficient and form: members of a family share most.
 #[derive(Default)]
 pub(super) struct Proofs {
-    known: BTreeMap<(usize, Vec<(usize, u64)>), Certificate>,
+    known: BTreeMap<Key, Certificate>,
 }
 
 impl Proofs {
@@ -37,7 +40,12 @@ impl Proofs {
     }
 
     fn of(&mut self, ask: &Ask, reduced: &Reduced) -> Vec<Certificate> {
-        let key = |m: usize| (m, reduced.combinations[m].iter().map(|&(l, k)| (l, k.to_bits())).collect());
+        let key = |m: usize| -> Key {
+            let terms = reduced.combinations[m].iter().map(|&(l, k)| (l, k.to_bits())).collect();
+            let (size, count) = reduced.sparse.as_ref().map_or((0.0, 0), |sparse| sparse.magnitude(m));
+            let recursion = reduced.dropped.as_ref().map_or(0.0, |dropped| dropped.rounding[m]);
+            (m, terms, [size.to_bits(), recursion.to_bits(), count as u64])
+        };
         let known = |m: usize| self.known.get(&key(m)).cloned();
         let all = certified_beside(ask.lagrangian, reduced, ask.domain, ask.motion, &EFFORT, known);
         for (m, certificate) in all.iter().enumerate() {
