@@ -106,7 +106,7 @@ mod tests {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/puma3.json");
         let arm = prepare(&path).expect("a sound specification").built.arm;
         let coordinates = Coordinates::of(&arm).expect("two parallel axes");
-        let absolute = Absolute::new(&expand(&arm), coordinates.clone());
+        let absolute = Absolute::new(&expand(&arm), coordinates.clone()).expect("a model");
         let rates = Rates {
             speed: vec![1.0, 2.0, 0.5],
             reference_speed: vec![0.7, 1.5, 3.0],

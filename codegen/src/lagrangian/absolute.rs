@@ -35,8 +35,7 @@ impl Coordinates {
             }
         };
         let onto: Vec<i8> = (0..arm.dof()).map(sign).collect();
-        onto.contains(&1).then_some(()).or(onto.contains(&-1).then_some(()))?;
-        Some(Self { onto })
+        onto.iter().any(|&sign| sign != 0).then_some(Self { onto })
     }
 
     /// The non-zero entries of row `a` of T: θ̇_a = Σ T_aj q̇_j.
@@ -86,27 +85,18 @@ pub struct Absolute {
 
 impl Absolute {
     /// Of a model whose parameters are all known.
-    pub fn new(known: &Lagrangian, coordinates: Coordinates) -> Self {
+    ///
+    /// `None` where entries that are one coefficient in joint angles, or zero there, are different sums in absolute
+    /// angles: a reduction would make them differ.
+    pub fn new(known: &Lagrangian, coordinates: Coordinates) -> Option<Self> {
         let joint = table(known);
         let n = known.dof;
         let transformed = |entry: Entry| {
             let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
-            let mut add = |entry: Entry, sign: i8| {
-                if let Some(&(m, own)) = joint.get(&entry) {
-                    for &(l, k) in &known.coefficients[m].terms {
-                        *sum.entry(l).or_insert(0.0) += f64::from(sign) * own * k;
-                    }
-                }
-            };
-            match entry {
-                Entry::D(a, b) => products(&[coordinates.back(a), coordinates.back(b)])
-                    .for_each(|(at, sign)| add(d(at[0], at[1]), sign)),
-                Entry::H(a, b, c) => {
-                    products(&[coordinates.back(a), coordinates.back(b), coordinates.back(c)])
-                        .for_each(|(at, sign)| add(h(at[0], at[1], at[2]), sign));
-                }
-                Entry::G(a) => {
-                    products(&[coordinates.back(a)]).for_each(|(at, sign)| add(Entry::G(at[0]), sign))
+            for (entry, sign) in spread(entry, |a| coordinates.back(a)) {
+                let Some(&(m, own)) = joint.get(&entry) else { continue };
+                for &(l, k) in &known.coefficients[m].terms {
+                    *sum.entry(l).or_insert(0.0) += f64::from(sign) * own * k;
                 }
             }
             sum
@@ -130,34 +120,26 @@ impl Absolute {
             .collect();
         let lagrangian = distinct(n, layers, vec![known.truncation]).over(&known.functions);
         let own = table(&lagrangian);
-        let parts = known
-            .coefficients
-            .iter()
-            .map(|coefficient| {
-                let Some(place) = coefficient.places.first() else { return Vec::new() };
-                let at = match place.entry {
-                    Entry::D(i, j) => products(&[coordinates.column(i), coordinates.column(j)])
-                        .map(|(at, sign)| (d(at[0], at[1]), sign))
-                        .collect::<Vec<_>>(),
-                    Entry::H(i, j, k) => {
-                        products(&[coordinates.column(i), coordinates.column(j), coordinates.column(k)])
-                            .map(|(at, sign)| (h(at[0], at[1], at[2]), sign))
-                            .collect()
-                    }
-                    Entry::G(i) => {
-                        products(&[coordinates.column(i)]).map(|(at, sign)| (Entry::G(at[0]), sign)).collect()
-                    }
-                };
-                let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
-                for (entry, sign) in at {
-                    if let Some(&(s, turned)) = own.get(&entry) {
-                        *sum.entry(s).or_insert(0.0) += place.sign * turned * f64::from(sign);
-                    }
+        let mut parts: Vec<Option<Vec<(usize, f64)>>> = vec![None; known.coefficients.len()];
+        for entry in Entry::all(n) {
+            let (m, place) = joint.get(&entry).map_or((None, 1.0), |&(m, sign)| (Some(m), sign));
+            let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
+            for (entry, sign) in spread(entry, |i| coordinates.column(i)) {
+                if let Some(&(s, turned)) = own.get(&entry) {
+                    *sum.entry(s).or_insert(0.0) += place * turned * f64::from(sign);
                 }
-                sum.into_iter().filter(|part| part.1 != 0.0).collect()
-            })
-            .collect();
-        Self { coordinates, lagrangian, parts }
+            }
+            let here: Vec<(usize, f64)> = sum.into_iter().filter(|part| part.1 != 0.0).collect();
+            let known = match m {
+                Some(m) => parts[m].get_or_insert_with(|| here.clone()),
+                None => &Vec::new(),
+            };
+            if *known != here {
+                return None;
+            }
+        }
+        let parts = parts.into_iter().map(Option::unwrap_or_default).collect();
+        Some(Self { coordinates, lagrangian, parts })
     }
 }
 
@@ -169,18 +151,24 @@ fn table(lagrangian: &Lagrangian) -> BTreeMap<Entry, (usize, f64)> {
     lagrangian.coefficients.iter().enumerate().flat_map(of).collect()
 }
 
-/// All choices of one element from each list, with the product of their signs.
-fn products(lists: &[Vec<(usize, i8)>]) -> impl Iterator<Item = (Vec<usize>, i8)> {
-    let mut out = vec![(Vec::new(), 1)];
-    for list in lists {
-        out = out
-            .iter()
-            .flat_map(|(at, sign): &(Vec<usize>, i8)| {
-                list.iter().map(move |&(i, own)| ([at.as_slice(), &[i]].concat(), sign * own))
-            })
-            .collect();
+/// The entries that one in other coordinates is the sum of, with signs: every index turned into those that `of` gives.
+fn spread(entry: Entry, of: impl Fn(usize) -> Vec<(usize, i8)>) -> Vec<(Entry, i8)> {
+    match entry {
+        Entry::D(i, j) => pairs(&of(i), &of(j)).map(|(i, j, sign)| (d(i, j), sign)).collect(),
+        Entry::H(i, j, k) => {
+            let rows = of(i);
+            let row = |(j, k, sign): (usize, usize, i8)| {
+                rows.iter().map(move |&(i, own)| (h(i, j, k), own * sign)).collect::<Vec<_>>()
+            };
+            pairs(&of(j), &of(k)).flat_map(row).collect()
+        }
+        Entry::G(i) => of(i).into_iter().map(|(i, sign)| (Entry::G(i), sign)).collect(),
     }
-    out.into_iter()
+}
+
+/// Each of `a` with each of `b`, and the product of their signs.
+fn pairs(a: &[(usize, i8)], b: &[(usize, i8)]) -> impl Iterator<Item = (usize, usize, i8)> {
+    a.iter().flat_map(move |&(i, s)| b.iter().map(move |&(j, t)| (i, j, s * t)))
 }
 
 fn d(i: usize, j: usize) -> Entry {

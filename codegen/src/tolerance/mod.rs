@@ -160,10 +160,10 @@ pub fn cheapest(ask: &Ask, fraction: f64) -> Choice {
 fn sparse(ask: &Ask, scale: &Scale, shares: &[Vec<f64>], points: &[Vec<f64>], fraction: f64) -> Vec<Choice> {
     let Ask { arm, lagrangian, exact, .. } = *ask;
     let most = BEYOND * fraction;
-    let family = match Coordinates::of(arm) {
+    let absolute = Coordinates::of(arm).and_then(|coordinates| Absolute::new(lagrangian, coordinates));
+    let family = match absolute.map(Arc::new) {
         None => reduction::family(&Problem { lagrangian, absolute: None, shares, points }, most),
-        Some(coordinates) => {
-            let absolute = Arc::new(Absolute::new(lagrangian, coordinates));
+        Some(absolute) => {
             let shares = scale.shares(|i| scale.rates.multipliers_in(&absolute, i));
             let (lagrangian, absolute) = (&absolute.lagrangian, Some(&absolute));
             reduction::family(&Problem { lagrangian, absolute, shares: &shares, points }, most)
