@@ -6,7 +6,7 @@ use crate::reduction::chebyshev::{fit, spanning_points};
 use crate::reduction::samples::dot;
 
 /// Forms with more functions than this are fitted by least squares: there the search throws out what hardly matters.
-const LARGE: usize = 6;
+pub(super) const LARGE: usize = 6;
 
 /// Values at the points of a [`Problem`].
 pub(super) struct Table {

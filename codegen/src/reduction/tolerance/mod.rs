@@ -7,6 +7,7 @@ mod fitting;
 mod moves;
 mod polish;
 mod price;
+mod squares;
 mod start;
 mod ties;
 

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::fitting::{Form, Table};
+use super::fitting::{Form, LARGE, Table};
 use super::price::Prices;
+use super::squares::Squares;
 use crate::lagrangian::{Function, Lagrangian};
 use crate::reduction::Candidate;
 
@@ -37,6 +38,11 @@ impl<'a> Moves<'a> {
 
     /// `form` with one function less, or with a cheaper function in place of one or more.
     pub fn simpler(&self, table: &Table, form: &Form) -> Vec<Form> {
+        if form.kept.len() > LONG.max(LARGE + 1)
+            && let Some(shorter) = shorter(table, form)
+        {
+            return shorter;
+        }
         let mut choices: BTreeSet<Vec<usize>> = BTreeSet::new();
         let without = |gone: &dyn Fn(usize) -> bool| -> Vec<usize> {
             form.kept.iter().copied().filter(|&f| !gone(f)).collect()
@@ -71,6 +77,21 @@ impl<'a> Moves<'a> {
         }
         choices.into_iter().map(|kept| Form::fitted(table, form.members.clone(), kept, None)).collect()
     }
+}
+
+/// A form of one coefficient with one function less, by least squares; `None` where there are several coefficients.
+fn shorter(table: &Table, form: &Form) -> Option<Vec<Form>> {
+    let &[(m, sign)] = form.members.as_slice() else { return None };
+    let columns: Vec<&Vec<f64>> = form.kept.iter().map(|&f| &table.functions[f]).collect();
+    let values: Vec<f64> = table.coefficients[m].iter().map(|alpha| sign * alpha).collect();
+    let squares = Squares::new(&columns, &values)?;
+    let without = |gone: usize| {
+        let rest = || (0..form.kept.len()).filter(move |&i| i != gone);
+        let parameters = squares.without(gone);
+        let kept = rest().map(|i| form.kept[i]).collect();
+        Form::with(table, form.members.clone(), kept, rest().map(|i| parameters[i]).collect())
+    };
+    Some((0..form.kept.len()).map(without).collect())
 }
 
 /// One form for the coefficients of both, where theirs are alike.
