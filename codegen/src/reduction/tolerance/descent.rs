@@ -31,6 +31,12 @@ struct Exchange {
     score: f64,
 }
 
+/// The price of the model as it stands, and how often it needs what.
+struct Now {
+    price: usize,
+    uses: Vec<usize>,
+}
+
 /// Slots with the forms that an exchange took out of them.
 type Before = Vec<(usize, Arc<Form>)>;
 
@@ -136,17 +142,21 @@ impl Descent<'_> {
     /// Operations saved per burden added, the most among the exchanges that leave all errors within `level`.
     fn best(&mut self, level: f64) -> Option<Exchange> {
         self.refresh();
-        let now = self.price();
+        let now = Now {
+            price: self.price(),
+            uses: self.prices.uses(self.forms.iter().map(|form| form.kept.as_slice())),
+        };
         let slots = (0..self.forms.len()).into_par_iter();
         let single =
-            slots.filter_map(|s| self.better(&[s], self.simpler[s].as_deref()?.as_slice(), now, level));
+            slots.filter_map(|s| self.better(&[s], self.simpler[s].as_deref()?.as_slice(), &now, level));
         let pairs: Vec<_> = self.united.iter().filter(|(_, forms)| !forms.is_empty()).collect();
-        let double = pairs.par_iter().filter_map(|((a, b), forms)| self.better(&[*a, *b], forms, now, level));
+        let double =
+            pairs.par_iter().filter_map(|((a, b), forms)| self.better(&[*a, *b], forms, &now, level));
         let found: Vec<Exchange> = single.chain(double).collect();
         found.into_iter().reduce(|best, other| if other.score > best.score { other } else { best })
     }
 
-    fn better(&self, slots: &[usize], forms: &[Form], now: usize, level: f64) -> Option<Exchange> {
+    fn better(&self, slots: &[usize], forms: &[Form], now: &Now, level: f64) -> Option<Exchange> {
         let old: Vec<&Form> = slots.iter().map(|&s| &*self.forms[s]).collect();
         let burden: f64 = old.iter().map(|form| form.burden).sum();
         let mut best: Option<Exchange> = None;
@@ -158,11 +168,17 @@ impl Descent<'_> {
             {
                 continue;
             }
-            let price = self.price_with(slots, form);
-            if price >= now {
+            let price = match old.as_slice() {
+                // One group with the same members: rates and rows are as they were.
+                [old] if !form.kept.is_empty() && !old.kept.is_empty() => {
+                    self.prices.exchanged(now.price, &now.uses, &old.kept, &form.kept)
+                }
+                _ => self.price_with(slots, form),
+            };
+            if price >= now.price {
                 continue;
             }
-            let score = libm::pow((now - price) as f64, self.keen) / (form.burden - burden).max(1e-9);
+            let score = libm::pow((now.price - price) as f64, self.keen) / (form.burden - burden).max(1e-9);
             if best.as_ref().is_some_and(|best| score <= best.score) {
                 continue;
             }

@@ -93,6 +93,41 @@ impl Prices {
         cost + in_row.iter().map(|count| count.saturating_sub(1)).sum::<usize>()
     }
 
+    /// How often the groups need each node.
+    pub fn uses<'a>(&self, groups: impl Iterator<Item = &'a [usize]>) -> Vec<usize> {
+        let mut uses = vec![0; self.nodes.len()];
+        groups.flatten().flat_map(|&f| &self.needs[f]).for_each(|&node| uses[node] += 1);
+        uses
+    }
+
+    /// What a model of price `now` whose groups need nodes as `uses` says costs with the functions `new` in place of `old`
+    /// in one of its groups, neither of them empty: rates and sums stay as they are.
+    pub fn exchanged(&self, now: usize, uses: &[usize], old: &[usize], new: &[usize]) -> usize {
+        let terms = |kept: &[usize]| 2 * kept.len() - kept.iter().filter(|&&f| self.constant[f]).count();
+        let needed = |kept: &[usize]| {
+            let mut nodes: Vec<usize> = kept.iter().flat_map(|&f| self.needs[f].iter().copied()).collect();
+            nodes.sort_unstable();
+            nodes
+        };
+        let (before, after) = (needed(old), needed(new));
+        let count = |nodes: &[usize], node: usize| {
+            let from = nodes.partition_point(|&other| other < node);
+            nodes[from..].iter().take_while(|&&other| other == node).count()
+        };
+        let (mut gone, mut come) = (0, 0);
+        for same in before.chunk_by(|a, b| a == b) {
+            if uses[same[0]] == same.len() && count(&after, same[0]) == 0 {
+                gone += self.nodes[same[0]];
+            }
+        }
+        for same in after.chunk_by(|a, b| a == b) {
+            if uses[same[0]] == 0 {
+                come += self.nodes[same[0]];
+            }
+        }
+        now + terms(new) + come - terms(old) - gone
+    }
+
     /// What it takes to have the rates in absolute angles, and the joints' torques from those of the rows.
     fn relative(&self, rates: impl Iterator<Item = Rate>, in_row: &[usize]) -> usize {
         let mut used = [[false; MAX_JOINTS]; 2];
