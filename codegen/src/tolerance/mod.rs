@@ -28,6 +28,9 @@ use proofs::Proofs;
 const BEYOND: f64 = 1.13;
 /// The exact model beyond which no sparse one is sought: none of a useful tolerance would be cheaper than the recursion.
 const LONG: usize = 4000;
+/// Code is made of the sparse members that the search takes to cost no more than this times the exact one: the graph seldom
+/// saves more.
+const SHARED: f64 = 1.25;
 /// Recursions of simpler arms are sought as far as they save this part of the exact one's price, and where a sparse model
 /// saves more, not at all: they save little, and looking for them takes long.
 const FEW: f64 = 0.2;
@@ -169,8 +172,10 @@ fn sparse(ask: &Ask, scale: &Scale, shares: &[Vec<f64>], points: &[Vec<f64>], fr
             reduction::family(&Problem { lagrangian, absolute, shares: &shares, points }, most)
         }
     };
+    let dear = exact.1.operations().price();
     let mut choices: Vec<Choice> = family
         .into_par_iter()
+        .filter(|member| member.price as f64 <= SHARED * dear as f64)
         .map(|member| {
             let reduced = member.model.reduced(lagrangian);
             let code = match &reduced.sparse {
@@ -179,7 +184,7 @@ fn sparse(ask: &Ask, scale: &Scale, shares: &[Vec<f64>], points: &[Vec<f64>], fr
             };
             Choice { reduced, form: Form::Sparse, code }
         })
-        .filter(|choice| choice.price() < exact.1.operations().price())
+        .filter(|choice| choice.price() < dear)
         .collect();
     choices.sort_by_key(Choice::price);
     choices

@@ -108,6 +108,7 @@ pub(super) fn members(
             out.push(Member {
                 model: Sparse { absolute: problem.absolute.cloned(), ..sparse(candidates, &forms) },
                 error,
+                price,
             });
         }
         level *= STEP;

@@ -49,6 +49,9 @@ pub struct Member {
     /// Largest Σ_m |r_m| Ū_m over the points and joints, as a fraction of the joint's torque; its maximum over the
     /// domain is larger.
     pub error: f64,
+    /// What the search takes its operations for, before the graph has shared what it can; a sine-cosine pair as
+    /// [`crate::graph::TRIG_PAIR`].
+    pub price: usize,
 }
 
 /// The members with errors up to `most`.
