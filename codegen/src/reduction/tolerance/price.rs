@@ -101,31 +101,25 @@ impl Prices {
     }
 
     /// What a model of price `now` whose groups need nodes as `uses` says costs with the functions `new` in place of `old`
-    /// in one of its groups, neither of them empty: rates and sums stay as they are.
+    /// in one of its groups, neither of them empty, both ascending: rates and sums stay as they are.
     pub fn exchanged(&self, now: usize, uses: &[usize], old: &[usize], new: &[usize]) -> usize {
-        let terms = |kept: &[usize]| 2 * kept.len() - kept.iter().filter(|&&f| self.constant[f]).count();
-        let needed = |kept: &[usize]| {
-            let mut nodes: Vec<usize> = kept.iter().flat_map(|&f| self.needs[f].iter().copied()).collect();
+        let beside = |a: &[usize], b: &[usize]| -> Vec<usize> {
+            a.iter().copied().filter(|f| b.binary_search(f).is_err()).collect()
+        };
+        let (gone, come) = (beside(old, new), beside(new, old));
+        let terms = |some: &[usize]| 2 * some.len() - some.iter().filter(|&&f| self.constant[f]).count();
+        let needed = |some: &[usize]| {
+            let mut nodes: Vec<usize> = some.iter().flat_map(|&f| self.needs[f].iter().copied()).collect();
             nodes.sort_unstable();
             nodes
         };
-        let (before, after) = (needed(old), needed(new));
-        let count = |nodes: &[usize], node: usize| {
-            let from = nodes.partition_point(|&other| other < node);
-            nodes[from..].iter().take_while(|&&other| other == node).count()
-        };
-        let (mut gone, mut come) = (0, 0);
-        for same in before.chunk_by(|a, b| a == b) {
-            if uses[same[0]] == same.len() && count(&after, same[0]) == 0 {
-                gone += self.nodes[same[0]];
-            }
-        }
-        for same in after.chunk_by(|a, b| a == b) {
-            if uses[same[0]] == 0 {
-                come += self.nodes[same[0]];
-            }
-        }
-        now + terms(new) + come - terms(old) - gone
+        let (before, after) = (needed(&gone), needed(&come));
+        let lost = before
+            .chunk_by(|a, b| a == b)
+            .filter(|same| uses[same[0]] == same.len() && after.binary_search(&same[0]).is_err());
+        let added = after.chunk_by(|a, b| a == b).filter(|same| uses[same[0]] == 0);
+        let cost = |same: &[usize]| self.nodes[same[0]];
+        now + terms(&come) + added.map(cost).sum::<usize>() - terms(&gone) - lost.map(cost).sum::<usize>()
     }
 
     /// What it takes to have the rates in absolute angles, and the joints' torques from those of the rows.
