@@ -1,6 +1,6 @@
 //! Where the reduction is judged: trajectory, tube or workspace, as weighted points.
 
-use crate::arm::Arm;
+use crate::arm::{Arm, Joint, JointKind};
 use crate::motion::Motion;
 use crate::spread::{Spread, in_box};
 
@@ -20,6 +20,25 @@ pub enum Domain {
     Tube(Vec<f64>),
     /// The joint box [low, high], rad or m.
     Workspace(Vec<[f64; 2]>),
+}
+
+impl Domain {
+    /// Positions that stand for all: every function is periodic in a revolute joint's angle, so that of a workspace wider
+    /// than `turns` ≥ 1 of it one turn, the nearest to 0, is enough.
+    #[must_use]
+    pub fn within_a_turn(&self, arm: &Arm, turns: f64) -> Self {
+        let Self::Workspace(limits) = self else { return self.clone() };
+        let turn = std::f64::consts::TAU;
+        let within = |(&[low, high], joint): (&[f64; 2], &Joint)| match joint.kind {
+            JointKind::Revolute if high - low > turns * turn => {
+                let from = (-0.5 * turn).clamp(low, high - turn);
+                // A few ulps more, for the rounding of 2π and of the sum.
+                [from, high.min(from + turn + 4.0 * f64::EPSILON * (turn + from.abs()))]
+            }
+            _ => [low, high],
+        };
+        Self::Workspace(limits.iter().zip(&arm.joints).map(within).collect())
+    }
 }
 
 /// The integral ∫ of equations (2)–(7) as a weighted sum over points.

@@ -157,6 +157,7 @@ impl Generation {
             RefitSpec::Minimax => reduction::extremes(&measure, &domain, motion.as_ref()),
             RefitSpec::LeastSquares => measure.points.clone(),
         };
+        let turn = domain.within_a_turn(&arm, 1.0);
         let scale = Scale::new(&arm, &domain, motion.as_ref());
         let exact = {
             let _stage = Stage::new(progress, "exact code", 1);
@@ -171,7 +172,6 @@ impl Generation {
                 motion: motion.as_ref(),
                 measure: &measure,
                 points: &points,
-                sines: &sines,
                 progress,
             };
             ask.model(scale.as_ref(), &exact)
@@ -198,7 +198,7 @@ impl Generation {
             uncertainty: &uncertainty,
             lagrangian: &lagrangian,
             reduced: &reduced,
-            domain: &domain,
+            domain: &turn,
             motion: motion.as_ref(),
             form,
             sines: &sines,

@@ -34,14 +34,15 @@ pub(super) fn model(module: &Module) -> Vec<String> {
         let (name, count) = (module.name, kept.len());
         lines.push(if let Some(dropped) = &module.reduced.dropped {
             format!(
-                " Reduced model of `{name}`, {n} joints, in {} form: the exact one of an arm with other inertial parameters, \
-                 without {} (mx: mass times x of its centre; Σ: ∫ x xᵀ dm).",
+                " Reduced model of `{name}`, {n} joints, in {} form: the exact one of an arm that need not be a real one, whose \
+                 base parameters (inertia gathered on as few links as possible) are those of this one fitted anew, without \
+                 {} (mx: mass times x of its centre; Σ: ∫ x xᵀ dm).",
                 module.form.name(),
                 dropped.lost()
             )
         } else if module.reduced.sparse.is_some() {
             format!(
-                " Reduced model of `{name}`, {n} joints: {count} functions, where the exact model has {p}."
+                " Reduced model of `{name}`, {n} joints: {count} functions, products counted, where the exact model has {p} ψ."
             )
         } else {
             format!(" Reduced model of `{name}`, {n} joints: {count} of {p} ψ functions.")

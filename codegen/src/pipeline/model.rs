@@ -9,8 +9,7 @@ use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::progress::Progress;
 use crate::reduction::{self, Dictionary, Reduced};
-use crate::sines::Sines;
-use crate::spec::{DictionarySpec, LawSpec, ModelSpec, RefitSpec, Spec};
+use crate::spec::{DictionarySpec, ModelSpec, RefitSpec, Spec};
 use crate::tolerance::{self, Scale};
 
 /// A model with its code.
@@ -29,7 +28,6 @@ pub(super) struct Ask<'a> {
     pub motion: Option<&'a Motion>,
     pub measure: &'a Measure,
     pub points: &'a [Vec<f64>],
-    pub sines: &'a Sines,
     pub progress: &'a dyn Progress,
 }
 
@@ -76,7 +74,6 @@ impl Ask<'_> {
     fn cheapest(&self, scale: Option<&Scale>, exact: &(Form, Graph)) -> Model {
         let fraction = self.spec.model.tolerance().unwrap_or_default();
         let known = self.lagrangian.at_nominal();
-        let law = self.spec.control.as_ref().map(|control| control.law);
         let ask = tolerance::Ask {
             arm: self.arm,
             lagrangian: &known,
@@ -85,8 +82,6 @@ impl Ask<'_> {
             measure: self.measure,
             scale,
             exact: (exact.0, &exact.1),
-            // A law that learns adds to the arm's own recursion, and coarse sines are certified for that alone.
-            simpler_arms: law != Some(LawSpec::Adaptive) && self.sines.rounds(),
             progress: self.progress,
         };
         let choice = tolerance::cheapest(&ask, fraction);

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use super::plus;
 use crate::lagrangian::{Combination, Entry, Lagrangian};
 
-/// Coefficients nearer to the exact ones than this part of the largest term differ by rounding alone.
+/// Coefficients nearer to the exact ones than this part of the largest term, and than ten times this part of their own,
+/// differ by rounding alone.
 const SAME: f64 = 1e-13;
 /// Terms below this part of the largest may be missing on one side: the expansion drops them.
 const NOISE: f64 = 4e-12;
@@ -95,7 +96,9 @@ pub fn expressed(lagrangian: &Lagrangian, own: &Lagrangian) -> Option<Expressed>
         }
         let chosen = chosen.unwrap_or_default();
         let apart = plus(&coefficient.terms, -1.0, &chosen);
-        let differs = apart.iter().any(|term| term.1.abs() > SAME * largest);
+        let own = coefficient.terms.iter().fold(0.0_f64, |most, term| most.max(term.1.abs()));
+        let same = SAME * largest.min(10.0 * own);
+        let differs = apart.iter().any(|term| term.1.abs() > same);
         combinations.push(if differs { chosen } else { coefficient.terms.clone() });
         simplified.push(differs);
         lacking.push(lost);

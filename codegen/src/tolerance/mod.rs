@@ -28,12 +28,14 @@ use proofs::Proofs;
 const BEYOND: f64 = 1.13;
 /// The exact model beyond which no sparse one is sought: none of a useful tolerance would be cheaper than the recursion.
 const LONG: usize = 4000;
+/// Over workspaces wider than so many turns, points of the whole width would be scattered over the turn like dice.
+const SCATTERED: f64 = 2.0;
 /// Code is made of the sparse members that the search takes to cost no more than this times the exact one: the graph seldom
 /// saves more.
 const SHARED: f64 = 1.25;
 /// Recursions of simpler arms are sought as far as they save this part of the exact one's price, and where a sparse model
-/// saves more, not at all: they save little, and looking for them takes long.
-const FEW: f64 = 0.2;
+/// saves more, not at all: they would hardly get there.
+const MOST: f64 = 0.45;
 /// Of long models, those are tried whose coefficients' largest errors at the points leave this part of the tolerance.
 const LIKELY: f64 = 0.93;
 
@@ -54,8 +56,6 @@ pub struct Ask<'a> {
     pub scale: Option<&'a Scale>,
     /// Form and code of the exact model.
     pub exact: (Form, &'a Graph),
-    /// Whether the recursion of a simpler arm may stand for the arm's own.
-    pub simpler_arms: bool,
     /// Who hears of it.
     pub progress: &'a dyn Progress,
 }
@@ -121,8 +121,9 @@ pub fn cheapest(ask: &Ask, fraction: f64) -> Choice {
         return ask.unreduced();
     };
     let price = ask.exact.1.operations().price();
-    let everywhere = extremes(ask.measure, ask.domain, ask.motion);
-    let points = points(ask.domain, &everywhere);
+    let domain = ask.domain.within_a_turn(ask.arm, SCATTERED);
+    let everywhere = extremes(ask.measure, &domain, ask.motion);
+    let points = points(&domain, &everywhere);
     let shares = scale.shares(|i| scale.rates.multipliers(ask.lagrangian, i));
     let limits: Vec<f64> = scale.peak.iter().map(|peak| fraction * peak).collect();
     let mut proofs = Proofs::default();
@@ -138,8 +139,8 @@ pub fn cheapest(ask: &Ask, fraction: f64) -> Choice {
     };
     let sparse = if ask.is_long() { Vec::new() } else { sparse(ask, scale, &shares, &points, fraction) };
     let best = first(sparse);
-    let least = if ask.is_long() { 0 } else { price - (FEW * price as f64) as usize };
-    if !ask.simpler_arms || best.as_ref().is_some_and(|best| best.price() < least) {
+    let least = if ask.is_long() { 0 } else { price - (MOST * price as f64) as usize };
+    if best.as_ref().is_some_and(|best| best.price() < least) {
         return best.unwrap_or_else(|| ask.unreduced());
     }
     let most = best.as_ref().map_or(price, Choice::price);

@@ -25,9 +25,10 @@ pub(super) struct Proofs {
 impl Proofs {
     /// Whether the torque errors of `reduced` are certified to stay within `limits`, N·m or N.
     pub fn within(&mut self, ask: &Ask, reduced: &Reduced, limits: &[f64]) -> bool {
-        let Ask { lagrangian, domain, motion, .. } = *ask;
+        let Ask { lagrangian, motion, .. } = *ask;
+        let domain = &ask.domain.within_a_turn(ask.arm, 1.0);
         let Some(scale) = ask.scale else { return false };
-        let certificates = self.of(ask, reduced);
+        let certificates = self.of(ask, domain, reduced);
         let separate = separate_error(lagrangian, &certificates, &scale.rates);
         let part = separate.iter().zip(limits).map(|(e, limit)| e / limit).fold(0.0, f64::max);
         let exceeds =
@@ -39,7 +40,7 @@ impl Proofs {
         part <= 1.0 || !ask.is_long() && hopeful && exceeds().is_none()
     }
 
-    fn of(&mut self, ask: &Ask, reduced: &Reduced) -> Vec<Certificate> {
+    fn of(&mut self, ask: &Ask, domain: &Domain, reduced: &Reduced) -> Vec<Certificate> {
         let key = |m: usize| -> Key {
             let terms = reduced.combinations[m].iter().map(|&(l, k)| (l, k.to_bits())).collect();
             let (size, count) = reduced.sparse.as_ref().map_or((0.0, 0), |sparse| sparse.magnitude(m));
@@ -47,7 +48,7 @@ impl Proofs {
             (m, terms, [size.to_bits(), recursion.to_bits(), count as u64])
         };
         let known = |m: usize| self.known.get(&key(m)).cloned();
-        let all = certified_beside(ask.lagrangian, reduced, ask.domain, ask.motion, &EFFORT, known);
+        let all = certified_beside(ask.lagrangian, reduced, domain, ask.motion, &EFFORT, known);
         for (m, certificate) in all.iter().enumerate() {
             self.known.insert(key(m), certificate.clone());
         }

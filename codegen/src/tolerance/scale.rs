@@ -1,5 +1,6 @@
 //! What torque errors are measured with.
 
+use super::SCATTERED;
 use crate::arm::Arm;
 use crate::bounds::{Rates, workspace_peak_torque};
 use crate::measure::Domain;
@@ -18,7 +19,7 @@ pub struct Scale {
 impl Scale {
     /// `None` over a workspace where a joint lacks a limit.
     pub fn new(arm: &Arm, domain: &Domain, motion: Option<&Motion>) -> Option<Self> {
-        match (domain, motion) {
+        match (&domain.within_a_turn(arm, SCATTERED), motion) {
             (Domain::Workspace(limits), _) => {
                 let rates = Rates::limits(arm)?;
                 Some(Self { peak: workspace_peak_torque(arm, limits, &rates), rates })

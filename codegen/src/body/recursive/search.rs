@@ -28,13 +28,13 @@ pub(crate) fn cost(arm: &Arm, plan: &Plan) -> usize {
     Candidate::new(arm, plan.choices.clone(), plan.units).cost
 }
 
-/// As [`recursive`], where the descent begins from some other plans, too; also where the best one ends.
+/// As [`recursive`], where descents begin from other plans if there are any; also where the best one ends.
 pub(crate) fn planned(arm: &Arm, plans: &[Plan]) -> (Graph, Plan) {
-    let plain = descended(arm, Candidate::new(arm, vec![Choice::default(); arm.dof()], METRES));
-    let mut best = plans.iter().fold(plain, |mut best, plan| {
-        best.take_cheaper(descended(arm, Candidate::new(arm, plan.choices.clone(), plan.units)));
-        best
-    });
+    let plain = [Plan { choices: vec![Choice::default(); arm.dof()], units: METRES }];
+    let from = |plan: &Plan| descended(arm, Candidate::new(arm, plan.choices.clone(), plan.units));
+    let plans = if plans.is_empty() { plain.as_slice() } else { plans };
+    let mut best = from(&plans[0]);
+    plans[1..].iter().for_each(|plan| best.take_cheaper(from(plan)));
     let graph = if best.cost == usize::MAX {
         // Its numbers leave no room for moving parameters; they stay where they are.
         build(arm, &best.choices, &METRES, true)
