@@ -208,6 +208,37 @@ fn a_tube_is_reduced_too() {
     search(&generation, 3_000);
 }
 
+fn written(spec: &serde_json::Value) -> Loaded {
+    let folder = std::env::temp_dir().join(format!("gramforge-tolerance-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join(format!("{}.json", spec["name"].as_str().unwrap()));
+    std::fs::write(&path, spec.to_string()).unwrap();
+    load(&path).unwrap()
+}
+
+/// One turn stands for a hundred; the attack goes over all of them.
+#[test]
+fn a_workspace_of_many_turns_is_reduced_as_one_turn_is() {
+    let text = std::fs::read_to_string(file("puma3")).unwrap();
+    let reduced = |turns: f64| {
+        let mut spec: serde_json::Value = serde_json::from_str(&text).unwrap();
+        spec["name"] = format!("turns_{turns}").into();
+        spec["measure"] = "workspace".into();
+        for field in ["motion", "control"] {
+            spec.as_object_mut().unwrap().remove(field);
+        }
+        for link in spec["arm"]["dh"]["links"].as_array_mut().unwrap() {
+            let most = std::f64::consts::PI * turns;
+            link["limits"]["position"] = serde_json::json!([-most, most]);
+        }
+        within(&written(&spec), 0.05)
+    };
+    let (one, hundred) = (reduced(1.0), reduced(100.0));
+    let price = |generation: &Generation| generation.code.operations().price();
+    assert!(price(&hundred) * 10 <= price(&one) * 11, "{} after {}", price(&hundred), price(&one));
+    assert!(search(&hundred, 3_000) > 0.5);
+}
+
 /// A specification with a payload between 0.1 and 0.3 kg and more that is uncertain.
 fn uncertain(name: &str, links: serde_json::Value) -> serde_json::Value {
     let text = std::fs::read_to_string(file(name)).unwrap();
@@ -220,11 +251,7 @@ fn uncertain(name: &str, links: serde_json::Value) -> serde_json::Value {
 
 /// Certified over a family of arms, attacked at all its vertices.
 fn attacked(spec: &serde_json::Value, torque: f64) -> Generation {
-    let folder = std::env::temp_dir().join(format!("gramforge-uncertain-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let path = folder.join(format!("{}.json", spec["name"].as_str().unwrap()));
-    std::fs::write(&path, spec.to_string()).unwrap();
-    let generation = within(&load(&path).unwrap(), torque);
+    let generation = within(&written(spec), torque);
     let wider = generation.torque.as_ref().unwrap().fraction() > torque;
     let warned = generation.warnings.iter().any(|text| text.contains("as specified"));
     assert!(wider && warned, "{:?} {:?}", generation.torque, generation.warnings);
