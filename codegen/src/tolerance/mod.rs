@@ -140,9 +140,10 @@ pub fn cheapest(ask: &Ask, fraction: f64) -> Choice {
     let sparse = if ask.is_long() { Vec::new() } else { sparse(ask, scale, &shares, &points, fraction) };
     let best = first(sparse);
     let least = if ask.is_long() { 0 } else { price - (MOST * price as f64) as usize };
-    if best.as_ref().is_some_and(|best| best.price() < least) {
-        return best.unwrap_or_else(|| ask.unreduced());
-    }
+    let best = match best {
+        Some(best) if best.price() < least => return best,
+        other => other,
+    };
     let most = best.as_ref().map_or(price, Choice::price);
     let problem =
         dropped::Problem { arm: ask.arm, lagrangian: ask.lagrangian, shares: &shares, points: &points };
