@@ -45,13 +45,12 @@ pub fn sparse(lagrangian: &Lagrangian, model: &Sparse) -> Graph {
             row.push(signed(minus != (*sign < 0), value * plan.rate(&motion, terms)));
         }
     }
-    let mut outputs: Vec<_> = motion
+    let outputs: Vec<_> = motion
         .torque(rows)
         .into_iter()
         .enumerate()
         .map(|(i, torque)| torque.named(&format!("tau{}", i + 1), true).id())
         .collect();
-    outputs.truncate(lagrangian.dof);
     builder.finish(&outputs).factored()
 }
 

@@ -176,6 +176,7 @@ impl Descent<'_> {
                 }
                 _ => self.price_with(slots, form),
             };
+            debug_assert_eq!(price, self.price_with(slots, form));
             if price >= now.price {
                 continue;
             }

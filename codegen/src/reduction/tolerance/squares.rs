@@ -56,3 +56,31 @@ impl Squares {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Squares;
+
+    /// One function after the other is taken away; each time the fit is that made anew without it.
+    #[test]
+    fn updates_agree_with_fits_made_anew() {
+        let at = |f: usize, x: f64| libm::cos(f as f64 * x + 0.3 * (f * f) as f64);
+        let column = |f: usize| (0..60).map(|i| at(f, 0.1 * f64::from(i))).collect::<Vec<f64>>();
+        let columns: Vec<Vec<f64>> = (0..7).map(column).collect();
+        let values: Vec<f64> = (0..60).map(|i| libm::exp(-0.05 * f64::from(i))).collect();
+        let of = |kept: &[usize]| {
+            let some: Vec<&Vec<f64>> = kept.iter().map(|&f| &columns[f]).collect();
+            Squares::new(&some, &values).expect("independent columns")
+        };
+        let mut squares = of(&[0, 1, 2, 3, 4, 5, 6]);
+        for gone in [3, 0, 6, 2] {
+            let parameters = squares.without(gone);
+            squares.remove(gone, parameters);
+            let kept: Vec<usize> = squares.left().collect();
+            for (&f, anew) in kept.iter().zip(&of(&kept).parameters) {
+                assert!((squares.parameters[f] - anew).abs() < 1e-9, "without {gone}: function {f}");
+            }
+            assert_eq!(squares.parameters[gone], 0.0);
+        }
+    }
+}

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::Problem;
 use crate::arm::{Arm, Inertial};
-use crate::dynamics::{passivity_torque, positions};
+use crate::dynamics::{gravity, mass_matrix, passivity_torque, positions};
 use crate::lagrangian::{Entry, Lagrangian};
 
 /// Values at the points of a [`Problem`].
@@ -114,17 +114,15 @@ fn values(arm: &Arm, lagrangian: &Lagrangian, q: &[f64]) -> Vec<f64> {
     let rest = vec![0.0; n];
     let unit = |j: usize| -> Vec<f64> { (0..n).map(|i| if i == j { 1.0 } else { 0.0 }).collect() };
     let weightless = [0.0; 3];
-    let d: Vec<Vec<f64>> =
-        (0..n).map(|j| passivity_torque(arm, weightless, &at, &rest, &rest, &unit(j))).collect();
+    let (d, g) = (mass_matrix(arm, q), gravity(arm, q));
     let h: Vec<Vec<Vec<f64>>> = (0..n)
         .map(|j| (0..=j).map(|k| passivity_torque(arm, weightless, &at, &unit(j), &unit(k), &rest)).collect())
         .collect();
-    let g = passivity_torque(arm, arm.gravity, &at, &rest, &rest, &rest);
     let value = |coefficient: &crate::lagrangian::Coefficient| {
         coefficient.places.first().map_or(0.0, |place| {
             place.sign
                 * match place.entry {
-                    Entry::D(i, j) => d[j][i],
+                    Entry::D(i, j) => d[i][j],
                     Entry::H(i, j, k) => h[j.max(k)][j.min(k)][i],
                     Entry::G(i) => g[i],
                 }
