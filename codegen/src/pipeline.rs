@@ -1,5 +1,6 @@
 //! All stages in order: from a checked specification to a model, its bounds, its controller and its code.
 
+mod angles;
 mod left;
 mod model;
 mod verdict;
@@ -8,7 +9,7 @@ use std::path::Path;
 
 use crate::arm::{Arm, Built, JointKind, Uncertainty, indefinite, indefinite_among};
 use crate::body::{self, Form, Regressor};
-use crate::bounds::{Bounds, Certificate, Effort, Torque, reach};
+use crate::bounds::{Bounds, Certificate, Effort, Torque, reach, rounded_angles};
 use crate::check::{examine, vector};
 use crate::design::{Design, Problem, checked, design};
 use crate::dynamics::mass_matrix;
@@ -45,8 +46,10 @@ const VERTEX_POSITIONS: usize = 64;
 pub struct Generation {
     /// The specification.
     pub loaded: Loaded,
-    /// The arm.
+    /// The arm that every model here is made for: its rotations are rounded as `arm.round_angles` says.
     pub arm: Arm,
+    /// The arm as the specification gives it.
+    pub given: Arm,
     /// What is odd about the specification without being wrong.
     pub warnings: Vec<String>,
     /// The desired motion.
@@ -111,7 +114,9 @@ impl Generation {
     pub fn with_progress(loaded: Loaded, effort: &Effort, progress: &dyn Progress) -> Result<Self, Error> {
         let mut faults = Faults::of(&loaded.path);
         let (built, motion) = examine(&loaded, &mut faults);
-        let Some(Built { arm, uncertainty, warnings }) = built else { return Err(faults.into_error()) };
+        let Some(Built { arm, uncertainty, given, uncertain, mut warnings }) = built else {
+            return Err(faults.into_error());
+        };
         let spec = &loaded.spec;
         if let Some(state) = indefinite(&arm, |q| mass_matrix(&arm, q)) {
             state.report(&mut faults);
@@ -158,11 +163,15 @@ impl Generation {
             RefitSpec::LeastSquares => measure.points.clone(),
         };
         let turn = domain.within_a_turn(&arm, 1.0);
-        let scale = Scale::new(&arm, &domain, motion.as_ref());
+        let reach = reach(&turn, motion.as_ref());
+        let angles = rounded_angles((&arm, &uncertainty), (&given, &uncertain), &reach);
+        let scale = Scale::new(&arm, &domain, motion.as_ref())
+            .map(|scale| scale.reserving((&arm, &lagrangian), &reach, angles.as_ref(), &sines));
         let exact = {
             let _stage = Stage::new(progress, "exact code", 1);
             body::exact(&arm, &lagrangian)
         };
+        warnings.extend(angles::advice(&loaded, &arm, &given, &lagrangian, &exact.1));
         let Model { reduced, form, mut code } = {
             let ask = Ask {
                 spec,
@@ -202,12 +211,12 @@ impl Generation {
             motion: motion.as_ref(),
             form,
             sines: &sines,
+            angles: angles.as_ref(),
         };
         let (certificates, mut bounds) = left.bounds(effort, progress);
         let stage = Stage::new(progress, "torque error", 1);
         let torque = scale.map(|scale| left.torque(&certificates, &bounds, scale));
         drop(stage);
-        let mut warnings = warnings;
         warnings.extend(torque.as_ref().and_then(|torque| left.beyond_tolerance(torque)));
         if !uncertainty.viscous.is_empty() {
             bounds.b.clone_from(&uncertainty.viscous);
@@ -251,6 +260,7 @@ impl Generation {
         }
         Ok(Self {
             arm,
+            given,
             warnings,
             motion,
             domain,
@@ -279,6 +289,7 @@ impl Generation {
             name: &self.loaded.spec.name,
             hash: &spec_hash(&self.loaded)?,
             arm: &self.arm,
+            turned: self.arm != self.given,
             uncertainty: &self.uncertainty,
             lagrangian: &self.lagrangian,
             reduced: &self.reduced,

@@ -9,12 +9,13 @@ use super::{Arm, Body, GRAVITY, Joint, JointKind, MOST_JOINTS, Transform, valida
 use crate::error::Faults;
 use crate::spec::{Convention, DhSpec, LinkSpec};
 
-/// The arm of `table`, which stands in the specification `file`; `None` where a link's inertial data are incomplete.
+/// The arm of `table`, which stands in the specification `file`, its rotations rounded by up to `angle` rad; `None` where a link's inertial data are incomplete.
 ///
 /// With T = Rz(θ)Tz(d)Tx(a)Rx(α) the joint stands before what moves with it, so a link frame of the standard
 /// convention is the joint's moved frame followed by the rest of T; with Craig's they are the same.
 pub(super) fn build(
     table: &DhSpec,
+    angle: f64,
     file: &Path,
     faults: &mut Faults,
     warnings: &mut Vec<String>,
@@ -31,7 +32,7 @@ pub(super) fn build(
     let mut from = Transform::IDENTITY;
     for (index, link) in table.links.iter().enumerate() {
         let place = Place::new(file, format!("arm.dh.links[{index}]"));
-        let (before, after) = around(table.convention, link);
+        let (before, after) = around(table.convention, link, angle);
         let body = body(link, &place, faults);
         if let Some((body, field)) = &body {
             validate::body(body, field, &place, faults, warnings);
@@ -41,7 +42,7 @@ pub(super) fn build(
         joints.push(Joint {
             name: format!("joint{}", index + 1),
             kind: link.joint,
-            pose: from.then(&before),
+            pose: from.then(&before).rounded(angle),
             body: body.unwrap_or_default().0.moved(&after),
             link: after,
             armature: drive.armature.unwrap_or(0.0),
@@ -55,11 +56,11 @@ pub(super) fn build(
 }
 
 /// What stands before the motion and what after it in a link's transform.
-fn around(convention: Convention, link: &LinkSpec) -> (Transform, Transform) {
-    let twist = Transform::rotation(0, link.alpha);
+fn around(convention: Convention, link: &LinkSpec, round: f64) -> (Transform, Transform) {
+    let twist = Transform::rotation(0, link.alpha).rounded(round);
     let length = Transform::translation([link.a, 0.0, 0.0]);
     let offset = Transform::translation([0.0, 0.0, link.d]);
-    let angle = Transform::rotation(2, link.theta);
+    let angle = Transform::rotation(2, link.theta).rounded(round);
     // Rz and Tz commute, so both constants may stand before the motion; a standard revolute joint keeps d after it,
     // where the frames of published tables are.
     match (convention, link.joint) {

@@ -87,7 +87,7 @@ impl Arm {
         }
         let [x, y, _] = next.translation;
         let skew = NEGLIGIBLE * self.longest();
-        (axis[2].abs() == 1.0 && x.abs() > skew && y.abs() > skew).then(|| libm::atan2(y, x))
+        (next.is_along_z() && x.abs() > skew && y.abs() > skew).then(|| libm::atan2(y, x))
     }
 }
 

@@ -9,6 +9,7 @@ mod frames;
 mod inertial;
 mod intervals;
 mod place;
+mod round;
 mod transform;
 mod uncertainty;
 mod urdf;
@@ -19,6 +20,7 @@ pub(crate) use base_parameters::{Along, Kept, Mass, Offset};
 pub use definite::{Indefinite, indefinite, indefinite_among};
 pub(crate) use frames::Origin;
 pub use inertial::{Inertial, Quantity};
+pub(crate) use round::{NOISE, distance};
 pub use transform::Transform;
 pub use uncertainty::{MOST_PARAMETERS, Parameter, Uncertainty};
 
@@ -97,9 +99,19 @@ pub struct Built {
     pub arm: Arm,
     /// All arms that its controller must bear.
     pub uncertainty: Uncertainty,
+    /// The arm with no rotation rounded: what the specification says.
+    pub given: Arm,
+    /// The family of that arm.
+    pub uncertain: Uncertainty,
     /// One sentence each, naming file, field and value.
     pub warnings: Vec<String>,
 }
+
+/// `arm.round_angles` where the specification is silent, rad: 1.57079632679 means a right angle.
+pub const ROUND_ANGLES: f64 = 1e-9;
+
+/// The largest `arm.round_angles`, rad.
+const MOST_ROUNDED: f64 = 0.1;
 
 /// Largest number of joints.
 pub const MOST_JOINTS: usize = 8;
@@ -109,15 +121,39 @@ impl Arm {
     ///
     /// Everything that is wrong goes to `faults`; `None` where something is.
     pub fn from_spec(loaded: &Loaded, faults: &mut Faults) -> Option<Built> {
+        let mut warnings = Vec::new();
+        let angle = loaded.spec.arm.round_angles.unwrap_or(ROUND_ANGLES);
+        if !(0.0..=MOST_ROUNDED).contains(&angle) {
+            faults.push("arm.round_angles", format!("is {angle}"), "write an angle from 0 to 0.1 rad");
+        }
+        let (arm, uncertainty) = Self::described(loaded, angle, faults, &mut warnings)?;
+        let (given, uncertain) = match angle {
+            0.0 => (arm.clone(), uncertainty.clone()),
+            _ => Self::rounded_to(loaded, 0.0)?,
+        };
+        Some(Built { arm, uncertainty, given, uncertain, warnings })
+    }
+
+    /// The arm and the family of a specification that [`Arm::from_spec`] has accepted, with rotations up to `angle` rad off a
+    /// right angle taken to be that right angle.
+    pub fn rounded_to(loaded: &Loaded, angle: f64) -> Option<(Self, Uncertainty)> {
+        Self::described(loaded, angle, &mut Faults::of(&loaded.path), &mut Vec::new())
+    }
+
+    fn described(
+        loaded: &Loaded,
+        angle: f64,
+        faults: &mut Faults,
+        warnings: &mut Vec<String>,
+    ) -> Option<(Self, Uncertainty)> {
         let before = faults.count();
         let spec = &loaded.spec.arm;
-        let mut warnings = Vec::new();
         let arm = match (&spec.dh, &spec.urdf) {
             (Some(table), None) => {
                 refuse_urdf_fields(spec, faults);
-                dh::build(table, &loaded.path, faults, &mut warnings)
+                dh::build(table, angle, &loaded.path, faults, warnings)
             }
-            (None, Some(file)) => urdf::build(spec, &loaded.resolve(file), faults, &mut warnings),
+            (None, Some(file)) => urdf::build(spec, angle, &loaded.resolve(file), faults, warnings),
             (Some(_), Some(_)) => {
                 faults.push("arm", "has both `dh` and `urdf`", "keep the one that describes the arm");
                 None
@@ -133,7 +169,7 @@ impl Arm {
         };
         let payload = spec.payload.as_ref().map(|payload| {
             let place = Place::new(&loaded.path, "arm.payload");
-            validate::payload(payload, &place, faults, &mut warnings)
+            validate::payload(payload, &place, faults, warnings)
         });
         let mut arm = arm?;
         if let Some(gravity) = spec.gravity {
@@ -144,16 +180,14 @@ impl Arm {
         }
         let sane = |t: &Transform| t.translation.iter().all(|v| v.is_finite());
         if !arm.joints.iter().all(|j| j.body.is_finite() && sane(&j.pose)) || !sane(&arm.tip) {
-            faults.push("arm", "holds lengths and masses whose products overflow", "write them in SI units");
-        }
-        if faults.count() > before {
+            faults.push("arm", "has masses or lengths that overflow", "write SI units");
             return None;
         }
         let ranges = loaded.spec.control.as_ref().and_then(|control| control.uncertainty.as_ref());
         let uncertainty = ranges
             .map(|ranges| Uncertainty::new(ranges, &arm, spec, &loaded.path, faults))
             .unwrap_or_default();
-        (faults.count() == before).then_some(Built { arm, uncertainty, warnings })
+        (faults.count() == before).then_some((arm, uncertainty))
     }
 
     /// Number of joints n.

@@ -3,6 +3,7 @@
 mod expanded;
 mod factors;
 mod harmonics;
+mod matrices;
 mod plain;
 mod recursive;
 mod regressor;
@@ -12,6 +13,7 @@ mod sparse;
 mod tests;
 
 pub use expanded::expanded;
+pub use matrices::matrices;
 pub use plain::plain;
 pub use recursive::recursive;
 pub(crate) use recursive::{Plan, cost, planned};

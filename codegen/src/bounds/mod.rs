@@ -34,14 +34,16 @@ pub use estimate::estimate;
 pub use factor::{factor, factor_bounds};
 pub use peak::workspace_peak_torque;
 pub use rates::Rates;
-pub use recursion::{beside_expansion, recursion};
+pub use recursion::{beside_expansion, recursion, recursion_rounding, rounded_angles};
 pub use region::reach;
-pub(crate) use rounding::{printed_down, printed_up};
+pub(crate) use rounding::{printed_down, printed_up, published};
+pub(crate) use sines::largest_growth;
 pub use sines::with_sines;
 pub use torque::{Torque, largest_torque, peak_torque, separate_error, torque_error, torque_exceeds};
 
 use rayon::prelude::*;
 
+use crate::dynamics::{Size, Sizes};
 use crate::lagrangian::{Coefficient, Combination, Entry, Lagrangian};
 use crate::measure::Domain;
 use crate::motion::Motion;
@@ -290,6 +292,17 @@ impl Bounds {
         Self::new(lagrangian, &deltas)
     }
 
+    /// What `bound` makes of the size of every entry; ΔB = 0.
+    pub(super) fn from_sizes(sizes: &Sizes, bound: impl Fn(Size) -> f64) -> Self {
+        let row = |sizes: &Vec<Size>| -> Vec<f64> { sizes.iter().map(|&size| bound(size)).collect() };
+        Self {
+            d: sizes.mass_matrix.iter().map(row).collect(),
+            h: sizes.christoffel.iter().map(|plane| plane.iter().map(row).collect()).collect(),
+            b: vec![0.0; sizes.gravity.len()],
+            g: row(&sizes.gravity),
+        }
+    }
+
     /// With [`DIGITS`] digits, rounded up: what has to be read by people and stored in firmware needs no more.
     #[must_use]
     pub fn rounded_up(mut self) -> Self {
@@ -300,12 +313,22 @@ impl Bounds {
 
     /// Entry by entry the sum, rounded up.
     #[must_use]
-    pub fn plus(mut self, other: &Self) -> Self {
-        let add =
-            |own: &mut f64, more: &f64| *own = if *more == 0.0 { *own } else { (*own + more).next_up() };
+    pub fn plus(self, other: &Self) -> Self {
+        self.with(other, |own, more| if more == 0.0 { own } else { (own + more).next_up() })
+    }
+
+    /// Entry by entry the larger one.
+    #[must_use]
+    pub(super) fn largest(self, other: &Self) -> Self {
+        self.with(other, f64::max)
+    }
+
+    fn with(mut self, other: &Self, join: impl Fn(f64, f64) -> f64) -> Self {
         let own = self.d.iter_mut().chain(self.h.iter_mut().flatten()).chain([&mut self.b, &mut self.g]);
         let more = other.d.iter().chain(other.h.iter().flatten()).chain([&other.b, &other.g]);
-        own.zip(more).for_each(|(own, more)| own.iter_mut().zip(more).for_each(|(own, more)| add(own, more)));
+        for (own, more) in own.zip(more) {
+            own.iter_mut().zip(more).for_each(|(own, &more)| *own = join(*own, more));
+        }
         self
     }
 

@@ -14,9 +14,10 @@
 //!   a sum (≤ 12), 119 in all, under the same [`ENCLOSURE`] of its own Σ|c| |δ|^a;
 //! - E, evaluating α̂_m in generated f64 code: a sine or cosine of a joint errs by 1 ulp, building κ·q from them
 //!   takes at most 4 roundings a joint and power, the sum one a term: γ_{64+ξ} Σ|k̂_l| sup|ψ_l|;
-//! - C, the exact α_m as computed from the arm: the recursion behind each sample (≤ 512 roundings), the transform
-//!   along each axis: γ_1024 Σ|k_l| sup|ψ_l|;
-//! - X, what the expansion dropped as rounding noise: [`Lagrangian::truncation`] times the largest monomial.
+//! - C, the exact α_m as computed from the arm: the transform along each axis and what is done to its terms afterwards,
+//!   γ_1024 Σ|k_l| sup|ψ_l|;
+//! - X, what the expansion dropped as rounding, and the rounding of the samples: [`crate::lagrangian::Accuracy::error`]
+//!   times the largest monomial.
 //!
 //! A sparse form evaluates Σ k_f ψ_f over products ψ_f of at most three functions: it adds γ_{256+ξ} Σ|k_f| sup|ψ_f|
 //! to E.
@@ -53,11 +54,14 @@ pub fn published(lagrangian: &Lagrangian, m: usize, reduced: &Reduced, reach: &[
         gamma(256.0 + count as f64) * sum * largest
     });
     let recursion = reduced.dropped.as_ref().map_or(0.0, |dropped| dropped.rounding[m]);
-    let own =
-        evaluation(kept) + products + recursion + exact(&coefficient.terms) + lagrangian.truncation * largest;
+    let own = evaluation(kept)
+        + products
+        + recursion
+        + exact(&coefficient.terms)
+        + coefficient.accuracy().error * largest;
     let varied = lagrangian.ranges.iter().enumerate().map(|(k, [low, high])| {
         let learnt = reduced.variations.get(m).map_or(0.0, |v| evaluation(&v[k]));
-        let rest = exact(&coefficient.variations[k]) + lagrangian.variation_truncation[k] * largest;
+        let rest = exact(&coefficient.variations[k]) + coefficient.variation_error(k) * largest;
         high.max(-low) * (learnt + rest)
     });
     own + varied.sum::<f64>()

@@ -56,6 +56,11 @@ pub fn with_sines(
     certificates
 }
 
+/// By coefficient, what sines off by `beyond` more than an ulp can do to the exact α_m in expanded form.
+pub fn largest_growth(lagrangian: &Lagrangian, reach: &[f64], beyond: f64) -> Vec<f64> {
+    lagrangian.coefficients.iter().map(|c| grown(lagrangian, &c.terms, reach, beyond)).collect()
+}
+
 /// S_m (1 + γ_{64+ξ}), its own rounding included.
 fn grown(lagrangian: &Lagrangian, terms: &Combination, reach: &[f64], sine: f64) -> f64 {
     let term = |&(l, k): &(usize, f64)| k.abs() * growth(lagrangian, &[l], reach, sine);

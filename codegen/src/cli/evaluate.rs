@@ -8,8 +8,9 @@ use serde::{Deserialize, Serialize};
 use super::progress::generated;
 use super::{json, show_warnings};
 use crate::arm::Arm;
+use crate::body::matrices;
 use crate::error::{Error, Faults};
-use crate::lagrangian::{Lagrangian, Values};
+use crate::graph::Graph;
 use crate::pipeline::Generation;
 
 /// Evaluates the model at states from a file.
@@ -84,30 +85,19 @@ impl Evaluate {
     }
 
     fn evaluate(&self, generation: &Generation, state: &State) -> Evaluation {
-        let Generation { arm, lagrangian, reduced, .. } = generation;
-        let values = match self.model {
-            Which::Exact => lagrangian.at(&state.q),
-            Which::Reduced => lagrangian.at_with(&reduced.combinations, &state.q),
+        let code = match self.model {
+            Which::Exact => &generation.exact_code,
+            Which::Reduced => &generation.code,
         };
-        evaluation(arm, lagrangian, values, state, self.friction)
+        evaluation(&generation.arm, code, state, self.friction)
     }
 }
 
-fn evaluation(
-    arm: &Arm,
-    lagrangian: &Lagrangian,
-    values: Values,
-    state: &State,
-    friction: bool,
-) -> Evaluation {
-    let n = lagrangian.dof;
+/// Everything comes from the graph `code` that is emitted, or would be for the exact model.
+fn evaluation(arm: &Arm, code: &Graph, state: &State, friction: bool) -> Evaluation {
+    let values = matrices(code, arm.dof(), &state.q);
     let coriolis = values.coriolis(&state.qd);
-    let mut tau = values.gravity.clone();
-    for (i, tau) in tau.iter_mut().enumerate() {
-        for j in 0..n {
-            *tau += values.mass_matrix[i][j] * state.qdd[j] + coriolis[i][j] * state.qd[j];
-        }
-    }
+    let mut tau = code.interpret(&state.q, &state.qd, &state.qd, &state.qdd);
     if friction {
         for ((tau, joint), &qd) in tau.iter_mut().zip(&arm.joints).zip(&state.qd) {
             let [forwards, backwards] = joint.coulomb_friction;

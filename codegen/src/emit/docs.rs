@@ -85,15 +85,21 @@ pub(super) fn model(module: &Module) -> Vec<String> {
         ));
     } else if !sines.rounds() && !moved(module) {
         lines.push(format!(
-            " Nothing is left out but terms below 1e-12 of the largest, so the bounds are those of the sines' error. Domain \
-             of the bounds: {}.",
+            " No term is left out, so the bounds are those of the sines' error{}. Domain of the bounds: {}.",
+            if module.turned { " and of rounding the arm's rotations" } else { "" },
             domain(module.domain)
         ));
     } else if moved(module) {
         lines.push(format!(" Domain of the bounds: {}; {}.", domain(module.domain), not_simplified(module)));
+    } else if module.turned {
+        lines.push(format!(
+            " No term is left out, so the bounds are those of rounding the arm's rotations. Domain of the bounds: {}. Rounding \
+             in f64 is in the torque error alone.",
+            domain(module.domain)
+        ));
     } else {
         lines.push(
-            " Nothing is left out but rounding and terms below 1e-12 of the largest, so the bounds are zero."
+            " No term is left out, so the bounds on D, h and G are zero; rounding in f64 is in the torque error alone."
                 .to_string(),
         );
     }
@@ -128,11 +134,10 @@ fn moved(module: &Module) -> bool {
 /// What is left out of coefficients that are not simplified.
 fn not_simplified(module: &Module) -> &'static str {
     if moved(module) {
-        "coefficients that are not simplified are those of the arm as specified but for rounding and for terms below \
-         1e-12 of the largest, and their bounds hold what the uncertain numbers move them by"
+        "coefficients that are not simplified are those of the arm as specified but for rounding, which is in the torque \
+         error, and their bounds hold what the uncertain numbers move them by"
     } else {
-        "coefficients that are not simplified are exact but for rounding and for terms below 1e-12 of the largest, \
-         and count as zero"
+        "coefficients that are not simplified are exact but for rounding, which is in the torque error, and count as zero"
     }
 }
 

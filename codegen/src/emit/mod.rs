@@ -33,6 +33,8 @@ pub struct Module<'a> {
     pub hash: &'a str,
     /// The arm.
     pub arm: &'a Arm,
+    /// Whether its rotations were rounded, which is part of the bounds.
+    pub turned: bool,
     /// All arms that the bounds hold for.
     pub uncertainty: &'a Uncertainty,
     /// The exact model.

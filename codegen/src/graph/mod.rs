@@ -6,6 +6,7 @@ mod count;
 mod factor;
 mod interpret;
 mod node;
+mod slopes;
 #[cfg(test)]
 mod tests;
 

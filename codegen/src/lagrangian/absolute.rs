@@ -5,8 +5,8 @@
 
 use std::collections::BTreeMap;
 
-use super::coefficients::{Entry, Layers, distinct};
-use super::expand::{Expansion, NEGLIGIBLE};
+use super::coefficients::{Accuracy, Entry, Layers, distinct};
+use super::expand::Expansion;
 use super::{Combination, Lagrangian};
 use crate::arm::{Arm, JointKind};
 
@@ -25,10 +25,10 @@ impl Coordinates {
     pub fn of(arm: &Arm) -> Option<Self> {
         let turns = |i: usize| arm.joints[i].kind == JointKind::Revolute;
         let sign = |i: usize| {
-            let along = arm.joints[i].pose.rotation[2][2];
-            if i == 0 || !turns(i - 1) || !turns(i) || along.abs() != 1.0 {
+            let pose = &arm.joints[i].pose;
+            if i == 0 || !turns(i - 1) || !turns(i) || !pose.is_along_z() {
                 0
-            } else if along > 0.0 {
+            } else if pose.rotation[2][2] > 0.0 {
                 1
             } else {
                 -1
@@ -103,22 +103,23 @@ impl Absolute {
         };
         let sums: Vec<(Entry, BTreeMap<usize, f64>)> =
             Entry::all(n).map(|entry| (entry, transformed(entry))).collect();
-        let of_gravity = |entry: &Entry| matches!(entry, Entry::G(_));
-        let largest = |gravity: bool| {
-            let own = sums.iter().filter(|(entry, _)| of_gravity(entry) == gravity);
-            own.flat_map(|(_, sum)| sum.values()).fold(0.0_f64, |most, k| most.max(k.abs()))
+        let accuracy = |entry: Entry| {
+            let parts = spread(entry, |a| coordinates.back(a));
+            let known = |(entry, sign): (Entry, i8)| {
+                joint.get(&entry).map(|&(m, _)| (f64::from(sign), known.coefficients[m].accuracy()))
+            };
+            Accuracy::sum(parts.into_iter().filter_map(known))
         };
-        let floor = [NEGLIGIBLE * largest(false), NEGLIGIBLE * largest(true)];
         let layers = sums
             .into_iter()
             .map(|(entry, sum)| {
-                let floor = floor[usize::from(of_gravity(&entry))];
-                let kept = sum.into_iter().filter(|(_, k)| k.abs() > floor);
+                let accuracy = accuracy(entry);
+                let kept = sum.into_iter().filter(|(_, k)| k.abs() > accuracy.resolution);
                 let layer: Expansion = kept.map(|(l, k)| (known.functions[l], k)).collect();
-                Layers { entry, layers: vec![layer] }
+                Layers { entry, layers: vec![layer], errors: vec![accuracy] }
             })
             .collect();
-        let lagrangian = distinct(n, layers, vec![known.truncation]).over(&known.functions);
+        let lagrangian = distinct(n, layers).over(&known.functions);
         let own = table(&lagrangian);
         let mut parts: Vec<Option<Vec<(usize, f64)>>> = vec![None; known.coefficients.len()];
         for entry in Entry::all(n) {

@@ -45,9 +45,41 @@ pub struct Coefficient {
     pub variations: Vec<Combination>,
     /// Where it stands.
     pub places: Vec<Place>,
+    /// What the terms may be off by, and what each of the variations may be, in this order.
+    pub errors: Vec<Accuracy>,
+}
+
+/// How well an expansion is known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Accuracy {
+    /// Terms up to this magnitude cannot be told from rounding.
+    pub resolution: f64,
+    /// The expansion differs from the function by a sum of terms whose magnitudes sum to no more: those that were dropped,
+    /// and the rounding of those that were kept.
+    pub error: f64,
+}
+
+impl Accuracy {
+    /// Of a sum, each part times a factor.
+    pub(super) fn sum(parts: impl Iterator<Item = (f64, Self)>) -> Self {
+        parts.fold(Self::default(), |sum, (factor, part)| Self {
+            resolution: sum.resolution + factor.abs() * part.resolution,
+            error: sum.error + factor.abs() * part.error,
+        })
+    }
 }
 
 impl Coefficient {
+    /// How well its own terms are known.
+    pub fn accuracy(&self) -> Accuracy {
+        self.errors.first().copied().unwrap_or_default()
+    }
+
+    /// What the derivative by uncertain parameter `k` may be off by, as [`Accuracy::error`].
+    pub fn variation_error(&self, k: usize) -> f64 {
+        self.errors.get(k + 1).map_or(0.0, |accuracy| accuracy.error)
+    }
+
     /// Number of functions in α_m, whatever the uncertain parameters are.
     pub fn width(&self) -> usize {
         let functions = [&self.terms].into_iter().chain(&self.variations).flatten();
@@ -81,60 +113,53 @@ pub(super) struct Layers {
     pub entry: Entry,
     /// At the arm's own parameters first, then by each parameter.
     pub layers: Vec<Expansion>,
+    /// By layer.
+    pub errors: Vec<Accuracy>,
 }
 
-/// Gathers the entries into distinct coefficients and numbers the functions that remain. `truncation` is what each
-/// layer of the entries lacks already; what twins differ by is added to it.
-pub(super) fn distinct(dof: usize, entries: Vec<Layers>, mut truncation: Vec<f64>) -> Lagrangian {
-    let largest: Vec<f64> = (0..truncation.len())
-        .map(|layer| {
-            let values = entries.iter().flat_map(|e| e.layers[layer].values());
-            values.fold(0.0, |m: f64, k| m.max(k.abs()))
-        })
-        .collect();
-    let mut merged = vec![0.0_f64; truncation.len()];
-    let mut kept: Vec<(Vec<Expansion>, Vec<Place>)> = Vec::new();
-    for Layers { entry, layers } in entries {
-        if layers.iter().all(Expansion::is_empty) {
+/// Gathers the entries into distinct coefficients and numbers the functions that remain. What twins differ by is added to
+/// the error of the one that is kept.
+pub(super) fn distinct(dof: usize, entries: Vec<Layers>) -> Lagrangian {
+    let mut kept: Vec<(Layers, Vec<Place>)> = Vec::new();
+    for entry in entries {
+        if entry.layers.iter().all(Expansion::is_empty) {
             continue;
         }
-        let twin = kept.iter_mut().find_map(|(known, places)| {
-            same_up_to_sign(known, &layers, &largest).map(|sign| (sign, &*known, places))
-        });
+        let twin = kept
+            .iter_mut()
+            .find_map(|(known, places)| same_up_to_sign(known, &entry).map(|sign| (sign, known, places)));
         match twin {
             Some((sign, known, places)) => {
-                for (merged, (a, b)) in merged.iter_mut().zip(known.iter().zip(&layers)) {
-                    *merged = merged.max(difference(a, b, sign));
+                for (layer, accuracy) in known.errors.iter_mut().enumerate() {
+                    let other = entry.errors[layer];
+                    accuracy.resolution = accuracy.resolution.max(other.resolution);
+                    let apart = difference(&known.layers[layer], &entry.layers[layer], sign);
+                    accuracy.error = accuracy.error.max(other.error + apart);
                 }
-                places.push(Place { entry, sign });
+                places.push(Place { entry: entry.entry, sign });
             }
-            None => kept.push((layers, vec![Place { entry, sign: 1.0 }])),
+            None => {
+                let place = Place { entry: entry.entry, sign: 1.0 };
+                kept.push((entry, vec![place]));
+            }
         }
     }
-    kept.iter_mut().for_each(|(layers, places)| orient(layers, places));
+    kept.iter_mut().for_each(|(entry, places)| orient(&mut entry.layers, places));
     let functions: BTreeSet<Function> =
-        kept.iter().flat_map(|(layers, _)| layers.iter().flat_map(|e| e.keys().copied())).collect();
+        kept.iter().flat_map(|(entry, _)| entry.layers.iter().flat_map(|e| e.keys().copied())).collect();
     let index: BTreeMap<Function, usize> = functions.iter().enumerate().map(|(l, &f)| (f, l)).collect();
     let combination = |expansion: Expansion| -> Combination {
         expansion.into_iter().filter_map(|(f, k)| Some((*index.get(&f)?, k))).collect()
     };
     let coefficients = kept
         .into_iter()
-        .map(|(layers, places)| {
+        .map(|(Layers { layers, errors, .. }, places)| {
             let mut layers = layers.into_iter().map(combination);
             let terms = layers.next().unwrap_or_default();
-            Coefficient { terms, variations: layers.collect(), places }
+            Coefficient { terms, variations: layers.collect(), places, errors }
         })
         .collect();
-    truncation.iter_mut().zip(merged).for_each(|(lost, merged)| *lost += merged);
-    Lagrangian {
-        dof,
-        functions: functions.into_iter().collect(),
-        coefficients,
-        truncation: truncation.remove(0),
-        ranges: Vec::new(),
-        variation_truncation: truncation,
-    }
+    Lagrangian { dof, functions: functions.into_iter().collect(), coefficients, ranges: Vec::new() }
 }
 
 /// Turns the coefficient so that its largest term, the first of equal ones, is positive: then sums rarely begin with
@@ -157,16 +182,16 @@ fn difference(a: &Expansion, b: &Expansion, sign: f64) -> f64 {
 }
 
 /// +1 or −1 where every layer of `b` is ± that of `a` to rounding, with the same sign.
-fn same_up_to_sign(a: &[Expansion], b: &[Expansion], largest: &[f64]) -> Option<f64> {
-    let first = |layers: &[Expansion]| layers.iter().find_map(|layer| layer.values().next().copied());
+fn same_up_to_sign(a: &Layers, b: &Layers) -> Option<f64> {
+    let first = |entry: &Layers| entry.layers.iter().find_map(|layer| layer.values().next().copied());
     let sign = if (first(a)? < 0.0) == (first(b)? < 0.0) { 1.0 } else { -1.0 };
-    let near = |((a, b), largest): ((&Expansion, &Expansion), &f64)| {
-        let own = a.values().fold(0.0, |m: f64, k| m.max(k.abs()));
-        let tolerance = 1e-13 * largest + 1e-12 * own;
+    let near = |layer: usize| {
+        let tolerance = a.errors[layer].resolution + b.errors[layer].resolution;
+        let (a, b) = (&a.layers[layer], &b.layers[layer]);
         let within = |x: &Expansion, y: &Expansion| {
             x.iter().all(|(f, k)| (k - sign * y.get(f).copied().unwrap_or(0.0)).abs() <= tolerance)
         };
         within(a, b) && within(b, a)
     };
-    a.iter().zip(b).zip(largest).all(near).then_some(sign)
+    (0..a.layers.len()).all(near).then_some(sign)
 }

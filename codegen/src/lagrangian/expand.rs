@@ -5,14 +5,18 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::Lagrangian;
-use super::coefficients::{Entry, Layers, distinct};
+use super::coefficients::{Accuracy, Entry, Layers, distinct};
 use super::function::{Function, MAX_JOINTS};
 use super::transform::{Axis, grid_point, grid_size, transform};
 use crate::arm::{Arm, JointKind, Uncertainty};
-use crate::dynamics::{gravity, mass_matrix};
+use crate::dynamics::{Size, Sizes, gravity, mass_matrix};
 
-/// What is below this fraction of the largest coefficient is rounding error of the transform.
-pub(super) const NEGLIGIBLE: f64 = 1e-12;
+/// Terms up to this part of what is summed for their entry are rounding of the samples and of the transform.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
+/// A term below this part of its coefficient's largest one is lost when they are added.
+const LOST: f64 = 0.5 * f64::EPSILON;
+/// Roundings behind each sample at most, as a part of what is summed.
+const SAMPLED: f64 = 512.0 * f64::EPSILON;
 
 /// A combination by function rather than by index.
 pub type Expansion = BTreeMap<Function, f64>;
@@ -31,40 +35,63 @@ pub fn expand(arm: &Arm) -> Lagrangian {
 pub fn expand_family(arm: &Arm, uncertainty: &Uncertainty) -> Lagrangian {
     let mut layers = vec![entries(arm)];
     layers.extend((0..uncertainty.parameters.len()).map(|k| entries(&uncertainty.alone(arm, k))));
-    let truncation = layers.iter().map(|(_, truncation)| *truncation).collect();
-    let mut columns: Vec<_> = layers.into_iter().map(|(entries, _)| entries.into_iter()).collect();
+    let mut columns: Vec<_> = layers.into_iter().map(Vec::into_iter).collect();
     let joined = Entry::all(arm.dof())
-        .map(|entry| Layers { entry, layers: columns.iter_mut().filter_map(Iterator::next).collect() })
+        .map(|entry| {
+            let (layers, errors) = columns.iter_mut().filter_map(Iterator::next).unzip();
+            Layers { entry, layers, errors }
+        })
         .collect();
     let ranges = uncertainty.parameters.iter().map(|p| [p.low, p.high]).collect();
-    Lagrangian { ranges, ..distinct(arm.dof(), joined, truncation) }
+    Lagrangian { ranges, ..distinct(arm.dof(), joined) }
 }
 
-/// d_ij with i ≤ j, h_ijk with j ≤ k and g_i, and the most that one of them lost.
-fn entries(arm: &Arm) -> (Vec<Expansion>, f64) {
+/// d_ij with i ≤ j, h_ijk with j ≤ k and g_i, and how well each is known.
+///
+/// What is a term and what is rounding is decided here and nowhere else: by the size of what is summed for the entry in
+/// the recursion behind the samples ([`Sizes`]), not by the arm's largest coefficient, beside which a light joint vanishes.
+fn entries(arm: &Arm) -> Vec<(Expansion, Accuracy)> {
     let n = arm.dof();
-    let (d, dropped_d) = expand_mass_matrix(arm);
-    let (g, dropped_g) = expand_gravity(arm);
-    // h is half the sum of three derivatives, each at most twice what it is taken of.
-    let mut truncation = dropped_g.max(3.0 * dropped_d);
-    let largest_d = largest(d.iter().flatten());
-    let mut entries = Vec::new();
-    for entry in Entry::all(n) {
-        entries.push(match entry {
-            Entry::D(i, j) => d[i][j].clone(),
+    // The nodes of a prismatic axis are −1, 0 and 1 m.
+    let sizes = Sizes::new(arm, &vec![1.0; n]);
+    let grown: f64 = arm.joints.iter().map(|joint| lebesgue(joint.kind)).product();
+    let own =
+        |raw: Expansion, size: Size| significant(raw, ROUNDING * size.exact, SAMPLED * grown * size.exact);
+    let d = expand_mass_matrix(arm);
+    let pairs: Vec<(usize, usize)> = (0..n).flat_map(|i| (i..n).map(move |j| (i, j))).collect();
+    let d: BTreeMap<(usize, usize), _> =
+        d.into_iter().zip(pairs).map(|(raw, (i, j))| ((i, j), own(raw, sizes.mass_matrix[i][j]))).collect();
+    let g: Vec<_> =
+        expand_gravity(arm).into_iter().zip(&sizes.gravity).map(|(raw, &size)| own(raw, size)).collect();
+    let entries: Vec<Entry> = Entry::all(n).collect();
+    entries
+        .into_par_iter()
+        .map(|entry| match entry {
+            Entry::D(i, j) => d[&(i, j)].clone(),
             Entry::H(i, j, k) => {
-                let (h, dropped) = christoffel(&d, i, j, k, NEGLIGIBLE * largest_d);
-                truncation = truncation.max(3.0 * dropped_d + dropped);
-                h
+                let parts = [(i, j), (i, k), (j, k)].map(|(i, j)| &d[&(i.min(j), i.max(j))]);
+                let raw = christoffel(parts.map(|part| &part.0), [k, j, i]);
+                // A derivative along one joint is at most twice as large, and three are halved.
+                let known = Accuracy::sum(parts.iter().map(|part| (1.0, part.1)));
+                significant(raw, known.resolution, known.error)
             }
             Entry::G(i) => g[i].clone(),
-        });
-    }
-    (entries, truncation)
+        })
+        .collect()
 }
 
-/// D, and the most that an entry lost.
-fn expand_mass_matrix(arm: &Arm) -> (Vec<Vec<Expansion>>, f64) {
+/// How much larger than an error at the nodes of one axis the interpolated error can be between them.
+fn lebesgue(kind: JointKind) -> f64 {
+    match kind {
+        // 5 equispaced angles: 1.99, 3 angles: 1.67.
+        JointKind::Revolute => 2.0,
+        // −1, 0 and 1, as a part of max(1, q²).
+        JointKind::Prismatic => 4.0,
+    }
+}
+
+/// D by rows, from the diagonal on.
+fn expand_mass_matrix(arm: &Arm) -> Vec<Expansion> {
     let n = arm.dof();
     // D does not depend on the first joint.
     let axes: Vec<Axis> = arm
@@ -74,31 +101,23 @@ fn expand_mass_matrix(arm: &Arm) -> (Vec<Vec<Expansion>>, f64) {
         .map(|(j, joint)| if j == 0 { Axis::constant() } else { Axis::new(joint.kind, 2) })
         .collect();
     let samples = sample(&axes, |q| mass_matrix(arm, q).concat());
-    let columns: Vec<Vec<_>> = (0..n * n)
+    let upper: Vec<usize> = (0..n).flat_map(|i| (i..n).map(move |j| i * n + j)).collect();
+    upper
         .into_par_iter()
         .map(|entry| {
-            if entry / n > entry % n {
-                return Vec::new();
-            }
             let column: Vec<f64> = samples.iter().map(|sample| sample[entry]).collect();
             collect(arm, &axes, &column)
         })
-        .collect();
-    let scale = columns.iter().flatten().map(|(_, k)| k.abs()).fold(0.0, f64::max);
-    let (upper, dropped) = significant(columns, NEGLIGIBLE * scale);
-    let full = (0..n).map(|i| (0..n).map(|j| upper[i.min(j) * n + i.max(j)].clone()).collect()).collect();
-    (full, dropped)
+        .collect()
 }
 
-/// G, and the most that an entry lost.
-fn expand_gravity(arm: &Arm) -> (Vec<Expansion>, f64) {
+/// G by joint.
+fn expand_gravity(arm: &Arm) -> Vec<Expansion> {
     let axes: Vec<Axis> = arm.joints.iter().map(|joint| Axis::new(joint.kind, 1)).collect();
     let samples = sample(&axes, |q| gravity(arm, q));
-    let columns: Vec<Vec<_>> = (0..arm.dof())
+    (0..arm.dof())
         .map(|i| collect(arm, &axes, &samples.iter().map(|sample| sample[i]).collect::<Vec<_>>()))
-        .collect();
-    let scale = columns.iter().flatten().map(|(_, k)| k.abs()).fold(0.0, f64::max);
-    significant(columns, NEGLIGIBLE * scale)
+        .collect()
 }
 
 /// Values of `f` on the grid, in grid order.
@@ -114,7 +133,7 @@ fn sample(axes: &[Axis], f: impl Fn(&[f64]) -> Vec<f64> + Sync) -> Vec<Vec<f64>>
 }
 
 /// The real canonical terms of a transformed sample array.
-fn collect(arm: &Arm, axes: &[Axis], samples: &[f64]) -> Vec<(Function, f64)> {
+fn collect(arm: &Arm, axes: &[Axis], samples: &[f64]) -> Expansion {
     let mut terms = Vec::new();
     for (index, (re, im)) in transform(axes, samples).into_iter().enumerate() {
         let mut kappa = [0; MAX_JOINTS];
@@ -135,35 +154,28 @@ fn collect(arm: &Arm, axes: &[Axis], samples: &[f64]) -> Vec<(Function, f64)> {
             Some(_) => {}
         }
     }
-    terms
+    terms.into_iter().filter(|(_, k)| *k != 0.0).collect()
 }
 
-/// The terms above `threshold`, and the largest sum of magnitudes that one column lost.
-fn significant(columns: Vec<Vec<(Function, f64)>>, threshold: f64) -> (Vec<Expansion>, f64) {
-    let lost = |column: &Vec<(Function, f64)>| -> f64 {
-        column.iter().map(|(_, k)| k.abs()).filter(|&k| k <= threshold).sum()
-    };
-    let dropped = columns.iter().map(lost).fold(0.0, f64::max);
-    let keep =
-        |column: Vec<(Function, f64)>| column.into_iter().filter(|(_, k)| k.abs() > threshold).collect();
-    (columns.into_iter().map(keep).collect(), dropped)
+/// The terms that are above `rounding` and not lost beside the largest of them, and how well they are known where the
+/// samples were known to `sampled`.
+fn significant(mut terms: Expansion, rounding: f64, sampled: f64) -> (Expansion, Accuracy) {
+    let largest = terms.values().fold(0.0, |most: f64, k| most.max(k.abs()));
+    let resolution = rounding.max(LOST * largest);
+    let dropped: f64 = terms.values().map(|k| k.abs()).filter(|k| *k <= resolution).sum();
+    terms.retain(|_, k| k.abs() > resolution);
+    (terms, Accuracy { resolution, error: dropped + sampled })
 }
 
-fn largest<'a>(expansions: impl Iterator<Item = &'a Expansion>) -> f64 {
-    expansions.flat_map(|e| e.values()).fold(0.0, |sofar, k| k.abs().max(sofar))
-}
-
-/// h_ijk by exact differentiation; cancellations below `threshold` are dropped, and their magnitudes summed.
-fn christoffel(d: &[Vec<Expansion>], i: usize, j: usize, k: usize, threshold: f64) -> (Expansion, f64) {
+/// h_ijk from d_ij, d_ik and d_jk by exact differentiation along k, j and i.
+fn christoffel(d: [&Expansion; 3], along: [usize; 3]) -> Expansion {
     let mut sum = Expansion::new();
-    for (expansion, joint, factor) in [(&d[i][j], k, 0.5), (&d[i][k], j, 0.5), (&d[j][k], i, -0.5)] {
+    for ((expansion, joint), factor) in d.into_iter().zip(along).zip([0.5, 0.5, -0.5]) {
         for (function, value) in expansion {
             if let Some((derivative, slope)) = function.derivative(joint) {
                 *sum.entry(derivative).or_insert(0.0) += factor * slope * value;
             }
         }
     }
-    let dropped = sum.values().map(|value| value.abs()).filter(|&value| value <= threshold).sum();
-    sum.retain(|_, value| value.abs() > threshold);
-    (sum, dropped)
+    sum
 }

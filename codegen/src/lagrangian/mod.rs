@@ -8,7 +8,7 @@ mod transform;
 mod values;
 
 pub use absolute::{Absolute, Coordinates};
-pub use coefficients::{Coefficient, Entry, Place};
+pub use coefficients::{Accuracy, Coefficient, Entry, Place};
 pub use expand::{Expansion, expand, expand_family};
 pub use function::{Function, MAX_JOINTS};
 pub use values::Values;
@@ -29,12 +29,8 @@ pub struct Lagrangian {
     pub functions: Vec<Function>,
     /// The r distinct coefficients, d before h before g.
     pub coefficients: Vec<Coefficient>,
-    /// What the expansion dropped as rounding error: no coefficient lost terms whose magnitudes sum to more.
-    pub truncation: f64,
     /// Range [low, high] of each uncertain parameter u_k, which is 0 for the arm's own value; none where it is known.
     pub ranges: Vec<[f64; 2]>,
-    /// What the derivative by each of these lacks, as `truncation`.
-    pub variation_truncation: Vec<f64>,
 }
 
 impl Lagrangian {
@@ -43,8 +39,10 @@ impl Lagrangian {
     pub fn at_nominal(&self) -> Self {
         let mut known = self.clone();
         known.ranges.clear();
-        known.variation_truncation.clear();
-        known.coefficients.iter_mut().for_each(|coefficient| coefficient.variations.clear());
+        for coefficient in &mut known.coefficients {
+            coefficient.variations.clear();
+            coefficient.errors.truncate(1);
+        }
         known
     }
 

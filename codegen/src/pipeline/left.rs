@@ -3,8 +3,8 @@
 use crate::arm::{Arm, Uncertainty};
 use crate::body::Form;
 use crate::bounds::{
-    Bounds, Certificate, Effort, Torque, certified_telling, printed_up, reach, recursion, torque_error,
-    with_sines,
+    Bounds, Certificate, Effort, Rates, Torque, certified_telling, printed_up, published, reach, recursion,
+    recursion_rounding, torque_error, with_sines,
 };
 use crate::lagrangian::Lagrangian;
 use crate::load::Loaded;
@@ -30,6 +30,8 @@ pub(super) struct Left<'a> {
     pub motion: Option<&'a Motion>,
     pub form: Form,
     pub sines: &'a Sines,
+    /// What rounding the arm's rotations has changed.
+    pub angles: Option<&'a Bounds>,
 }
 
 impl Left<'_> {
@@ -43,12 +45,18 @@ impl Left<'_> {
             None => *effort,
         };
         let certificates = certified_telling(lagrangian, reduced, domain, motion, &effort, progress);
-        if self.form == Form::Recursive && !sines.rounds() {
-            return self.recursive(certificates);
+        let (mut certificates, bounds) = if self.form == Form::Recursive && !sines.rounds() {
+            self.recursive(certificates)
+        } else {
+            let certificates = with_sines(certificates, lagrangian, reduced, domain, motion, sines);
+            let bounds = Bounds::of(lagrangian, &certificates);
+            (certificates, bounds)
+        };
+        let Some(angles) = self.angles else { return (certificates, bounds) };
+        for (certificate, more) in certificates.iter_mut().zip(angles.certificates(lagrangian)) {
+            certificate.bound = (certificate.bound + more.bound).next_up();
         }
-        let certificates = with_sines(certificates, lagrangian, reduced, domain, motion, sines);
-        let bounds = Bounds::of(lagrangian, &certificates);
-        (certificates, bounds)
+        (certificates, bounds.plus(angles))
     }
 
     /// Those of the plain recursion with sines off by more than rounding: what they do to it, and what uncertain
@@ -69,27 +77,49 @@ impl Left<'_> {
         (certificates.into_iter().zip(own.certificates(lagrangian)).map(add).collect(), bounds)
     }
 
-    /// What that costs in torque.
+    /// What that costs in torque, rounding in f64 and of the arm's rotations included.
     pub fn torque(&self, certificates: &[Certificate], bounds: &Bounds, scale: Scale) -> Torque {
         let Self { lagrangian, reduced, domain, motion, .. } = *self;
-        let Scale { rates, peak } = scale;
-        if self.form == Form::Recursive && reduced.is_exact() {
-            return Torque { error: bounds.torque(&rates), peak };
-        }
-        let mut error = torque_error(lagrangian, reduced, domain, motion, certificates, &rates);
-        if let (Some(fraction), true) =
-            (self.loaded.spec.model.tolerance(), self.uncertainty.parameters.is_empty())
-        {
-            // The choice has proved as much, perhaps with more work, for sines within an ulp.
-            for (i, (error, peak)) in error.iter_mut().zip(&peak).enumerate() {
-                let multipliers = rates.multipliers(lagrangian, i);
-                let sines: f64 = certificates.iter().zip(&multipliers).map(|(c, u)| c.sines * u).sum();
-                let proved = fraction * peak;
-                let proved = if sines == 0.0 { proved } else { (proved + sines).next_up() };
-                *error = error.min(proved);
+        let Scale { rates, peak, reserve } = &scale;
+        let own = if self.form == Form::Recursive && reduced.is_exact() {
+            bounds.torque(rates)
+        } else {
+            let mut error = torque_error(lagrangian, reduced, domain, motion, certificates, rates);
+            if let (Some(fraction), true) =
+                (self.loaded.spec.model.tolerance(), self.uncertainty.parameters.is_empty())
+            {
+                // The choice has proved as much, perhaps with more work, for sines within an ulp.
+                for (i, (error, limit)) in error.iter_mut().zip(scale.limits(fraction)).enumerate() {
+                    let multipliers = rates.multipliers(lagrangian, i);
+                    let sines: f64 = certificates.iter().zip(&multipliers).map(|(c, u)| c.sines * u).sum();
+                    *error = error.min((limit.max(0.0) + sines).next_up());
+                }
             }
+            let angles = self.angles.map_or_else(|| vec![0.0; error.len()], |angles| angles.torque(rates));
+            error.iter().zip(angles).map(|(error, angles)| error + angles).collect()
+        };
+        let rounding = self.rounding(rates);
+        let error = own.iter().zip(rounding).map(|(own, rounding)| (own + rounding).next_up()).collect();
+        debug_assert_eq!(reserve.len(), peak.len());
+        Torque { error, peak: scale.peak }
+    }
+
+    /// Rounding in f64 of what is not simplified, by joint, N·m or N; that of the rest is in its certificates.
+    fn rounding(&self, rates: &Rates) -> Vec<f64> {
+        let Self { lagrangian, reduced, domain, motion, .. } = *self;
+        let reach = reach(domain, motion);
+        let whole = recursion_rounding(self.arm, &reach).torque(rates);
+        if self.form == Form::Recursive && reduced.is_exact() {
+            return whole;
         }
-        Torque { error, peak }
+        let each: Vec<f64> = (0..lagrangian.coefficients.len())
+            .map(|m| if reduced.simplified[m] { 0.0 } else { published(lagrangian, m, reduced, &reach) })
+            .collect();
+        let terms = |i: usize| -> f64 {
+            rates.multipliers(lagrangian, i).iter().zip(&each).map(|(u, rounding)| u * rounding).sum()
+        };
+        // Entries that vanish to rounding have no coefficient.
+        whole.iter().enumerate().map(|(i, whole)| (whole + terms(i)).next_up()).collect()
     }
 
     /// What is said where a tolerance, kept by the arm as specified, is not kept by all that it may be.

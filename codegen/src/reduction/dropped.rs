@@ -5,14 +5,9 @@ use std::collections::BTreeMap;
 use super::plus;
 use crate::lagrangian::{Combination, Entry, Lagrangian};
 
-/// Coefficients nearer to the exact ones than this part of the largest term, and than ten times this part of their own,
-/// differ by rounding alone.
-const SAME: f64 = 1e-13;
-/// Terms below this part of the largest may be missing on one side: the expansion drops them.
-const NOISE: f64 = 4e-12;
-
-/// Entries that the exact model lacks may have terms below this part of the largest.
-const STRAY: f64 = 1e-12;
+/// What two expansions of the same coefficient may differ by, in units of what their terms can be told from: how much of a
+/// simpler arm's parameters cancels is not what cancels in the arm itself.
+const SAME: f64 = 16.0;
 
 /// What is left out where the exact model of another arm stands for that of the arm.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,60 +45,70 @@ pub struct Expressed {
 /// `None` where `own` has an entry or a function that `lagrangian` lacks, or where entries that are one coefficient there
 /// differ.
 pub fn expressed(lagrangian: &Lagrangian, own: &Lagrangian) -> Option<Expressed> {
-    let terms = lagrangian.coefficients.iter().flat_map(|c| &c.terms);
-    let largest = terms.fold(0.0_f64, |most, term| most.max(term.1.abs()));
-    let noise = NOISE * largest;
     let mut entries: BTreeMap<Entry, (usize, f64)> = BTreeMap::new();
-    let mut known: Vec<(Combination, f64)> = Vec::new();
     for (index, coefficient) in own.coefficients.iter().enumerate() {
-        let mut terms = Combination::new();
-        let mut lost = 0.0;
-        for &(l, k) in &coefficient.terms {
-            match lagrangian.functions.binary_search(&own.functions[l]) {
-                Ok(place) => terms.push((place, k)),
-                Err(_) if k.abs() <= noise => lost += k.abs(),
-                Err(_) => return None,
-            }
-        }
-        known.push((terms, lost));
         entries.extend(coefficient.places.iter().map(|place| (place.entry, (index, place.sign))));
     }
-    let mut combinations = Vec::new();
-    let mut simplified = Vec::new();
-    let mut lacking = Vec::new();
+    let mut out = Expressed { combinations: Vec::new(), simplified: Vec::new(), lacking: Vec::new() };
     for coefficient in &lagrangian.coefficients {
-        let mut chosen: Option<Combination> = None;
-        let mut lost = own.truncation;
+        let resolution = coefficient.accuracy().resolution;
+        let mut chosen: Option<(Combination, f64)> = None;
         for place in &coefficient.places {
-            let here = match entries.remove(&place.entry) {
+            let (here, noise, error) = match entries.remove(&place.entry) {
                 Some((index, sign)) => {
-                    let (terms, missing) = &known[index];
-                    lost = lost.max(own.truncation + missing);
-                    terms.iter().map(|&(l, k)| (l, place.sign * sign * k)).collect()
+                    let known = &own.coefficients[index];
+                    let noise = SAME * (resolution + known.accuracy().resolution);
+                    let (terms, lost) = renumbered(lagrangian, own, &known.terms, place.sign * sign, noise)?;
+                    (terms, noise, known.accuracy().error + lost)
                 }
-                None => Combination::new(),
+                None => (Combination::new(), SAME * resolution, coefficient.accuracy().error),
             };
-            match &chosen {
-                None => chosen = Some(here),
-                Some(first) => {
+            match &mut chosen {
+                None => chosen = Some((here, error)),
+                Some((first, lost)) => {
                     let apart = plus(first, -1.0, &here);
                     if apart.iter().any(|term| term.1.abs() > noise) {
                         return None;
                     }
-                    lost += apart.iter().map(|term| term.1.abs()).sum::<f64>();
+                    *lost = lost.max(error) + apart.iter().map(|term| term.1.abs()).sum::<f64>();
                 }
             }
         }
-        let chosen = chosen.unwrap_or_default();
+        let (chosen, lost) = chosen.unwrap_or_default();
         let apart = plus(&coefficient.terms, -1.0, &chosen);
-        let own = coefficient.terms.iter().fold(0.0_f64, |most, term| most.max(term.1.abs()));
-        let same = SAME * largest.min(10.0 * own);
-        let differs = apart.iter().any(|term| term.1.abs() > same);
-        combinations.push(if differs { chosen } else { coefficient.terms.clone() });
-        simplified.push(differs);
-        lacking.push(lost);
+        let differs = apart.iter().any(|term| term.1.abs() > SAME * resolution);
+        // Where it does not differ, what it seems to differ by is still there.
+        let hidden: f64 = if differs { 0.0 } else { apart.iter().map(|term| term.1.abs()).sum() };
+        out.combinations.push(if differs { chosen } else { coefficient.terms.clone() });
+        out.simplified.push(differs);
+        out.lacking.push(lost + hidden);
     }
-    let stray = |index: usize| known[index].0.iter().any(|term| term.1.abs() > STRAY * largest);
+    // Entries that the exact model lacks.
+    let stray = |index: usize| {
+        let coefficient = &own.coefficients[index];
+        coefficient.terms.iter().any(|term| term.1.abs() > SAME * coefficient.accuracy().resolution)
+    };
     let none_strays = !entries.values().any(|&(index, _)| stray(index));
-    none_strays.then_some(Expressed { combinations, simplified, lacking })
+    none_strays.then_some(out)
+}
+
+/// Terms over the functions of `own`, times `sign`, over those of `lagrangian`, and the sum of the magnitudes that have no
+/// place there; `None` where one of these is no `noise`.
+fn renumbered(
+    lagrangian: &Lagrangian,
+    own: &Lagrangian,
+    terms: &Combination,
+    sign: f64,
+    noise: f64,
+) -> Option<(Combination, f64)> {
+    let mut out = Combination::new();
+    let mut lost = 0.0;
+    for &(l, k) in terms {
+        match lagrangian.functions.binary_search(&own.functions[l]) {
+            Ok(place) => out.push((place, sign * k)),
+            Err(_) if k.abs() <= noise => lost += k.abs(),
+            Err(_) => return None,
+        }
+    }
+    Some((out, lost))
 }

@@ -125,6 +125,8 @@ impl Example {
         simulate(&Scenario {
             file: Path::new("example.json"),
             arm: &self.arm,
+            plant: &self.arm,
+            exact: &recursive(&self.arm),
             motion: &self.motion,
             design: &self.design,
             code: &self.code,

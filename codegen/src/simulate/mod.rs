@@ -45,12 +45,16 @@ const MOST_STEPS: f64 = 1e8;
 pub struct Scenario<'a> {
     /// The specification, which errors name.
     pub file: &'a Path,
-    /// The arm of the specification: the exact model, and the plant.
+    /// The arm that the models were made for: the specification's, with its rotations rounded.
     pub arm: &'a Arm,
+    /// The plant: the arm as the specification gives it.
+    pub plant: &'a Arm,
     /// The desired motion.
     pub motion: &'a Motion,
     /// Law, gains, period and limits.
     pub design: &'a Design,
+    /// The passivity torque of the exact model.
+    pub exact: &'a Graph,
     /// The passivity torque of the reduced model.
     pub code: &'a Graph,
     /// What the reduced model leaves out.
@@ -69,7 +73,8 @@ impl<'a> Scenario<'a> {
     /// # Errors
     /// [`Error::Input`] where it has no motion or no controller.
     pub fn of(generation: &'a Generation) -> Result<Self, Error> {
-        let Generation { loaded, arm, motion, design, code, bounds, regressor, .. } = generation;
+        let Generation { loaded, arm, given, motion, design, code, exact_code, bounds, regressor, .. } =
+            generation;
         let missing = |field: &str, what: &str| {
             let mend = format!("add `{field}` to the specification");
             Error::input(&loaded.path, field, format!("is missing, and a simulation needs {what}"), mend)
@@ -78,6 +83,8 @@ impl<'a> Scenario<'a> {
         Ok(Self {
             file: &loaded.path,
             arm,
+            plant: given,
+            exact: exact_code,
             motion: motion.as_ref().ok_or_else(|| missing("motion", "a desired motion"))?,
             design: design.as_ref().ok_or_else(|| missing("control", "a law"))?,
             code,
@@ -108,7 +115,7 @@ pub struct Comparison {
 /// [`Error::Input`] where a number of control or simulation cannot be used, [`Error::Internal`] where the parts of
 /// the scenario do not belong to the same arm of 1 to 8 joints.
 pub fn simulate(scenario: &Scenario) -> Result<Comparison, Error> {
-    simulate_on(scenario, scenario.arm)
+    simulate_on(scenario, scenario.plant)
 }
 
 /// The same on a plant that is not the arm of the specification, such as one that carries another load: both laws know
@@ -131,7 +138,7 @@ pub fn simulate_on(scenario: &Scenario, plant: &Arm) -> Result<Comparison, Error
 fn compare<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Comparison, Error> {
     let Scenario { file, arm, design, .. } = *scenario;
     let rig = rig::<N>(scenario, plant)?;
-    let own = ArmModel::<N>::new(arm)?;
+    let own = GraphModel::<N>::exact(scenario.exact, arm)?;
     let model = GraphModel::<N>::new(scenario.code, scenario.bounds, arm)?;
     let plain = ExactLaw { gains: rig.gains, coulomb: vector("Coulomb friction", &design.coulomb)? };
     let robust = ReportLaw {

@@ -77,6 +77,15 @@ impl<'a, const N: usize> GraphModel<'a, N> {
         };
         Ok(Self { graph, viscous_friction: viscous_friction(arm)?, bounds })
     }
+
+    /// The same of an exact model, which leaves nothing out.
+    ///
+    /// # Errors
+    /// As [`GraphModel::new`].
+    pub fn exact(graph: &'a Graph, arm: &Arm) -> Result<Self, Error> {
+        vector::<_, N>("the graph's output", &graph.outputs)?;
+        Ok(Self { graph, viscous_friction: viscous_friction(arm)?, bounds: RuntimeBounds::ZERO })
+    }
 }
 
 impl<const N: usize> Model<N> for GraphModel<'_, N> {

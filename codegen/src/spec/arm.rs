@@ -27,6 +27,10 @@ pub struct ArmSpec {
     /// URDF only: drive data and limits by joint name, over those of the file.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub joints: BTreeMap<String, DriveSpec>,
+    /// Rotations of the description that are this near to a right angle, rad, are taken to be that right angle, as a
+    /// whole; what that changes is part of every published bound. 0 to 0.1, default 1e-9; 0 for none beyond 2 ulp.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub round_angles: Option<f64>,
     /// A body carried at the tip, in the tip frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub payload: Option<PayloadSpec>,

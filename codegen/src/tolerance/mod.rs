@@ -125,7 +125,10 @@ pub fn cheapest(ask: &Ask, fraction: f64) -> Choice {
     let everywhere = extremes(ask.measure, &domain, ask.motion);
     let points = points(&domain, &everywhere);
     let shares = scale.shares(|i| scale.rates.multipliers(ask.lagrangian, i));
-    let limits: Vec<f64> = scale.peak.iter().map(|peak| fraction * peak).collect();
+    let limits = scale.limits(fraction);
+    if limits.iter().any(|limit| *limit <= 0.0) {
+        return ask.unreduced();
+    }
     let mut proofs = Proofs::default();
     let mut first = |choices: Vec<Choice>| {
         let stage = Stage::new(ask.progress, "models within the tolerance", choices.len());

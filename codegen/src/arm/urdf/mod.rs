@@ -20,9 +20,10 @@ use crate::error::Faults;
 use crate::spec::{ArmSpec, LimitsSpec};
 use tree::{Role, Tree};
 
-/// The arm of the URDF `file` with the additions of `spec`.
+/// The arm of the URDF `file` with the additions of `spec`, its rotations rounded by up to `angle` rad.
 pub(super) fn build(
     spec: &ArmSpec,
+    angle: f64,
     file: &Path,
     faults: &mut Faults,
     warnings: &mut Vec<String>,
@@ -54,10 +55,10 @@ pub(super) fn build(
         .iter()
         .map(|link| {
             let place = Place::new(file, format!("link[{}].inertial", link.name));
-            (link.name.as_str(), body(&link.inertial, &place, faults, warnings))
+            (link.name.as_str(), body(&link.inertial, angle, &place, faults, warnings))
         })
         .collect();
-    let arm = assemble(&tree, &bodies, spec, file, faults, warnings)?;
+    let arm = assemble(&tree, &bodies, (spec, angle), file, faults, warnings)?;
     (faults.count() == before).then_some(arm)
 }
 
@@ -68,7 +69,7 @@ type Seat = (Option<usize>, Transform);
 fn assemble(
     tree: &Tree<'_>,
     bodies: &BTreeMap<&str, Body>,
-    spec: &ArmSpec,
+    (spec, angle): (&ArmSpec, f64),
     file: &Path,
     faults: &mut Faults,
     warnings: &mut Vec<String>,
@@ -78,7 +79,7 @@ fn assemble(
     for (joint, role) in &tree.joints {
         let place = Place::new(file, format!("joint[{}]", joint.name));
         let &(owner, at) = seats.get(joint.parent.link.as_str())?;
-        let here = at.then(&pose(&joint.origin, &place.at("origin"), faults)?);
+        let here = at.then(&pose(&joint.origin, angle, &place.at("origin"), faults)?).rounded(angle);
         let seat = match role {
             Role::Welded(position) if joint.joint_type == JointType::Fixed || *position == 0.0 => {
                 (owner, here)
@@ -89,21 +90,21 @@ fn assemble(
                     let lock = Place::new(faults.file(), format!("arm.lock.{}", joint.name));
                     lock.warn(warnings, &format!("is {position}, beyond the limits {range:?} of the file"));
                 }
-                let turn = axis(joint, &place, faults)?;
+                let turn = axis(joint, &place, faults)?.rounded(angle);
                 let moved = match kind(&joint.joint_type) {
-                    JointKind::Revolute => Transform::rotation(2, *position),
+                    JointKind::Revolute => Transform::rotation(2, *position).rounded(angle),
                     JointKind::Prismatic => Transform::translation([0.0, 0.0, *position]),
                 };
-                (owner, here.then(&turn).then(&moved).then(&turn.inverse()))
+                (owner, here.then(&turn).then(&moved).then(&turn.inverse()).rounded(angle))
             }
             Role::Moves => {
-                let turn = axis(joint, &place, faults)?;
+                let turn = axis(joint, &place, faults)?.rounded(angle);
                 let kind = kind(&joint.joint_type);
                 let drive = merged(joint, kind, spec, &place, faults, warnings);
                 joints.push(Joint {
                     name: joint.name.clone(),
                     kind,
-                    pose: here.then(&turn),
+                    pose: here.then(&turn).rounded(angle),
                     body: Body::default(),
                     link: turn.inverse(),
                     armature: drive.armature.unwrap_or(0.0),
@@ -136,13 +137,13 @@ fn kind(joint: &JointType) -> JointKind {
     if *joint == JointType::Prismatic { JointKind::Prismatic } else { JointKind::Revolute }
 }
 
-fn pose(origin: &urdf_rs::Pose, place: &Place, faults: &mut Faults) -> Option<Transform> {
+fn pose(origin: &urdf_rs::Pose, angle: f64, place: &Place, faults: &mut Faults) -> Option<Transform> {
     let all = origin.xyz.iter().chain(origin.rpy.iter());
     if !all.clone().all(|v| v.is_finite()) {
         place.fault(faults, "holds a number that is not finite", "write finite numbers");
         return None;
     }
-    Some(Transform::translation(*origin.xyz).then(&Transform::roll_pitch_yaw(*origin.rpy)))
+    Some(Transform::translation(*origin.xyz).then(&Transform::roll_pitch_yaw(*origin.rpy)).rounded(angle))
 }
 
 /// The rotation from the joint's URDF frame to one whose z is the axis.
@@ -161,8 +162,16 @@ fn axis(joint: &urdf_rs::Joint, place: &Place, faults: &mut Faults) -> Option<Tr
 }
 
 /// A link's body in the link frame.
-fn body(inertial: &Inertial, place: &Place, faults: &mut Faults, warnings: &mut Vec<String>) -> Body {
-    let Some(pose) = pose(&inertial.origin, &place.at("origin"), faults) else { return Body::default() };
+fn body(
+    inertial: &Inertial,
+    angle: f64,
+    place: &Place,
+    faults: &mut Faults,
+    warnings: &mut Vec<String>,
+) -> Body {
+    let Some(pose) = pose(&inertial.origin, angle, &place.at("origin"), faults) else {
+        return Body::default();
+    };
     let i = &inertial.inertia;
     let tensor: Matrix = [[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]];
     let body = Body::from_com(inertial.mass.value, [0.0; 3], tensor);

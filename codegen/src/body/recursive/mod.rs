@@ -9,7 +9,7 @@ mod wrench;
 pub use search::recursive;
 pub(crate) use search::{Plan, cost, planned};
 
-use crate::arm::{Arm, Joint, JointKind};
+use crate::arm::{Arm, Joint, JointKind, Transform};
 use crate::graph::{Builder, Expr, Graph, Variable};
 use choice::Choice;
 use motion::{Frame, Motion, Products, Step, advance, to_parent};
@@ -122,8 +122,9 @@ fn offset_turn(builder: &Builder, [sin, cos]: [f64; 2]) -> Turn<'_> {
 /// the latter).
 fn split(r: &[[f64; 3]; 3]) -> ([[f64; 3]; 3], [f64; 2]) {
     let z = r.map(|row| row[2]);
-    let axes = if z[2].abs() == 1.0 {
-        [[1.0, 0.0, 0.0], [0.0, z[2], 0.0], [0.0, 0.0, z[2]]]
+    let axes = if z[0] == 0.0 && z[1] == 0.0 {
+        let way = 1.0_f64.copysign(z[2]);
+        [[1.0, 0.0, 0.0], [0.0, way, 0.0], [0.0, 0.0, way]]
     } else if z[0] == 0.0 {
         [[1.0, 0.0, 0.0], [0.0, z[2], z[1]], [0.0, 0.0 - z[1], z[2]]]
     } else if z[1] == 0.0 {
@@ -133,8 +134,12 @@ fn split(r: &[[f64; 3]; 3]) -> ([[f64; 3]; 3], [f64; 2]) {
     };
     let back = transposed(&axes);
     let entry = |i: usize, j: usize| (0..3).map(|k| back[i][k] * r[k][j]).sum::<f64>();
-    let tidy = |x: f64| if (x - x.round()).abs() < 1e-15 { x.round() + 0.0 } else { x };
-    (axes, [tidy(entry(1, 0)), tidy(entry(0, 0))])
+    let turn = Transform {
+        rotation: std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))),
+        ..Transform::IDENTITY
+    };
+    let turn = turn.rounded(crate::arm::NOISE).rotation;
+    (axes, [turn[1][0], turn[0][0]])
 }
 
 fn name_motion(motion: &Motion<'_>, number: usize) {

@@ -107,7 +107,7 @@ fn based(arm: &Arm, choices: &[Choice]) -> Arm {
 
 /// A joint parallel to a revolute one before it.
 fn may_sum(arm: &Arm, j: usize) -> bool {
-    j > 0 && arm.joints[j].pose.rotation[2][2].abs() == 1.0 && arm.joints[j - 1].kind == JointKind::Revolute
+    j > 0 && arm.joints[j].pose.is_along_z() && arm.joints[j - 1].kind == JointKind::Revolute
 }
 
 /// Lengths that make a constant 1 where they are the unit; none where a prismatic joint moves by metres.
