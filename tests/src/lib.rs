@@ -1,6 +1,9 @@
 //! What the integration tests in `tests/` share: arms, reference values, random states.
 
+pub mod double;
+pub mod oracle;
 pub mod random;
+pub mod scratch;
 pub mod truth;
 
 use std::path::{Path, PathBuf};

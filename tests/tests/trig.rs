@@ -3,12 +3,10 @@
 //! Every f32 and a longer search in f64:
 //! `cargo test --release -p gramforge-tests --test trig -- --include-ignored --nocapture`
 
-#[path = "trig/double.rs"]
-mod double;
-
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use gramforge_runtime::trig::{Libm, Polynomial, Table, Trig};
+use gramforge_tests::double;
 use gramforge_tests::random::Random;
 use rayon::prelude::*;
 

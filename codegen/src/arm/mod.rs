@@ -180,7 +180,9 @@ impl Arm {
         }
         let sane = |t: &Transform| t.translation.iter().all(|v| v.is_finite());
         if !arm.joints.iter().all(|j| j.body.is_finite() && sane(&j.pose)) || !sane(&arm.tip) {
-            faults.push("arm", "has masses or lengths that overflow", "write SI units");
+            faults.push("arm", "holds lengths and masses whose products overflow", "write them in SI units");
+        }
+        if faults.count() > before {
             return None;
         }
         let ranges = loaded.spec.control.as_ref().and_then(|control| control.uncertainty.as_ref());

@@ -1,4 +1,6 @@
-//! Sine and cosine to some 30 digits, in pairs of f64 (Dekker 1971).
+//! Numbers of some 30 digits, in pairs of f64 (Dekker 1971).
+
+use std::ops::{Add, Mul, Neg, Sub};
 
 /// An unevaluated sum of a number and what it rounded away.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +18,11 @@ fn two_product(a: f64, b: f64) -> Double {
 }
 
 impl Double {
+    /// 0.
+    pub const ZERO: Self = Self(0.0, 0.0);
+    /// 1.
+    pub const ONE: Self = Self(1.0, 0.0);
+
     fn plus(self, b: Self) -> Self {
         let (s, t) = (two_sum(self.0, b.0), two_sum(self.1, b.1));
         let s = two_sum(s.0, s.1 + t.0);
@@ -38,9 +45,50 @@ impl Double {
         two_sum(q, ((self.0 - p.0) - p.1 + self.1) / n)
     }
 
+    /// √self of a number above 0, one step of Newton's from that of its head.
+    pub fn sqrt(self) -> Self {
+        let x = self.0.sqrt();
+        let rest = self.plus(two_product(-x, x));
+        two_sum(x, rest.0 / (2.0 * x))
+    }
+
     /// |self − x|.
     pub fn off(self, x: f64) -> f64 {
         ((self.0 - x) + self.1).abs()
+    }
+}
+
+impl Add for Double {
+    type Output = Self;
+    fn add(self, b: Self) -> Self {
+        self.plus(b)
+    }
+}
+
+impl Sub for Double {
+    type Output = Self;
+    fn sub(self, b: Self) -> Self {
+        self.plus(b.minus())
+    }
+}
+
+impl Mul for Double {
+    type Output = Self;
+    fn mul(self, b: Self) -> Self {
+        self.times(b)
+    }
+}
+
+impl Neg for Double {
+    type Output = Self;
+    fn neg(self) -> Self {
+        self.minus()
+    }
+}
+
+impl From<f64> for Double {
+    fn from(x: f64) -> Self {
+        Self(x, 0.0)
     }
 }
 
