@@ -38,6 +38,7 @@ pub mod dynamics;
 pub mod emit;
 pub mod error;
 pub mod graph;
+pub mod interval;
 pub mod lagrangian;
 pub mod load;
 pub mod measure;

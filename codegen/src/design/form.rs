@@ -5,7 +5,8 @@ use nalgebra::DMatrix;
 
 use super::gains::Gains;
 use super::inertia::{Cell, Inertia};
-use super::linalg::{dense, rows, weighed};
+use super::linalg::{dense, rows, symmetric, weighed};
+use super::verified::{inverse_diagonal, inverse_entries, largest_ratio, least_eigenvalue};
 
 /// Relative gap at which the search for extremes of D ends.
 pub(super) const TOLERANCE: f64 = 0.05;
@@ -29,8 +30,14 @@ pub struct InertiaBounds {
 
 /// M of equation (17), inverted, with what follows from it.
 pub(super) struct Form {
-    pub(super) inverse: DMatrix<f64>,
+    matrix: DMatrix<f64>,
     root_inverse: DMatrix<f64>,
+    /// |M⁻¹|, entry by entry, from above.
+    pub(super) inverse: DMatrix<f64>,
+    /// (Pqq⁻¹)_ii from above, rad/(N·m).
+    pub(super) compliance: Vec<f64>,
+    /// λ_min(P12) from below, 1/s.
+    pub(super) slowest: f64,
 }
 
 impl Form {
@@ -44,9 +51,15 @@ impl Form {
             (false, true) => -gains.pqq[i - n][j],
             (false, false) => omega[(i - n, j - n)],
         });
-        let factor = m.cholesky()?;
+        let matrix = symmetric(&m);
+        let factor = matrix.clone().cholesky()?;
         let root_inverse = factor.l().try_inverse()?;
-        Some(Self { inverse: factor.inverse(), root_inverse })
+        let inverse = inverse_entries(&matrix, &factor.inverse())?;
+        let pqq = symmetric(&dense(&gains.pqq));
+        let compliance = inverse_diagonal(&pqq, pqq.clone().cholesky()?.inverse().diagonal().as_slice());
+        let slowest = least_eigenvalue(&symmetric(&dense(&gains.p12)));
+        let known = slowest > 0.0 && compliance.iter().all(|c| c.is_finite());
+        known.then_some(Self { matrix, root_inverse, inverse, compliance, slowest })
     }
 }
 
@@ -60,19 +73,22 @@ pub(super) fn inertia_bounds(
     let n = gains.pqq.len();
     let pqq = dense(&gains.pqq);
     let root = &form.root_inverse;
+    let unit = DMatrix::identity(n, n);
     let extremes = inertia.largest(cells, TOLERANCE, BUDGET / (n * n), |low, high| {
         let mut out = match low.clone().cholesky() {
             Some(factor) => {
                 let inverse = factor.inverse();
-                let top = inverse.symmetric_eigenvalues().max();
-                std::iter::once(top).chain((0..n).map(|i| inverse[(i, i)])).collect()
+                let diagonal = inverse.diagonal();
+                let top = largest_ratio(low, &unit, inverse.symmetric_eigenvalues().max());
+                std::iter::once(top).chain(inverse_diagonal(low, diagonal.as_slice())).collect()
             }
             None => vec![f64::INFINITY; n + 1],
         };
         let mut energy = DMatrix::zeros(2 * n, 2 * n);
         energy.view_mut((0, 0), (n, n)).copy_from(high);
         energy.view_mut((n, n), (n, n)).copy_from(&pqq);
-        out.push((root * energy * root.transpose()).symmetric_eigenvalues().max());
+        let guess = (root * &energy * root.transpose()).symmetric_eigenvalues().max();
+        out.push(largest_ratio(&form.matrix, &energy, guess));
         out
     });
     let certified = extremes.bound.iter().all(|b| b.is_finite());
@@ -98,16 +114,29 @@ pub(super) fn initial_level(
     extremes.bound[0] + elastic
 }
 
-/// The largest λ_max(D⁻¹K), 1/s, over `cells`; infinite where K has overflowed.
-pub(super) fn fastest(inertia: &Inertia, cells: Vec<Cell>, damping: &[Vec<f64>]) -> f64 {
-    let Some(factor) = dense(damping).cholesky() else { return f64::INFINITY };
+/// The largest λ_max(D⁻¹K) over some cells, 1/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Fastest {
+    /// From above where it is certified; otherwise only what was seen.
+    pub(super) rate: f64,
+    /// Whether no position of the cells exceeds it.
+    pub(super) certified: bool,
+}
+
+/// The largest λ_max(D⁻¹K) over `cells`; infinite where K has overflowed.
+pub(super) fn fastest(inertia: &Inertia, cells: Vec<Cell>, damping: &[Vec<f64>]) -> Fastest {
+    let unknown = Fastest { rate: f64::INFINITY, certified: false };
+    let damping_matrix = symmetric(&dense(damping));
+    let Some(factor) = damping_matrix.clone().cholesky() else { return unknown };
     let root = factor.l();
     let extremes = inertia.largest(cells, TOLERANCE, BUDGET / damping.len().pow(2), |low, _| {
         let Some(factor) = low.clone().cholesky() else { return vec![f64::INFINITY] };
-        vec![(root.transpose() * factor.solve(&root)).symmetric_eigenvalues().max()]
+        let guess = (root.transpose() * factor.solve(&root)).symmetric_eigenvalues().max();
+        vec![largest_ratio(low, &damping_matrix, guess)]
     });
     let (bound, seen) = (extremes.bound[0], extremes.seen[0]);
-    if bound.is_finite() { bound } else { seen }
+    let certified = bound.is_finite();
+    Fastest { rate: if certified { bound } else { seen }, certified }
 }
 
 /// K with the slope of the robust terms.

@@ -1,12 +1,14 @@
 //! What is promised of the closed loop, and why not where nothing is.
 
 use super::adaptation::{Adaptation, Learning, regression};
-use super::feedforward::{beyond_torque_limits, lag};
-use super::form::{Form, InertiaBounds, fastest, inertia_bounds, initial_level, total};
+use super::feedforward::Feedforward;
+use super::first_step::{Start, asked};
+use super::form::{Fastest, Form, InertiaBounds, fastest, inertia_bounds, initial_level, total};
 use super::inertia::Inertia;
 use super::reach::{Course, Envelope};
 use super::region::{cells, outside, reach, start, width};
 use super::{Problem, family};
+use crate::bounds::Rates;
 use crate::error::Error;
 use crate::spec::LawSpec;
 
@@ -51,6 +53,10 @@ pub(super) struct Judgement {
     pub(super) gain: Vec<f64>,
     /// Whether some level of V holds it.
     pub(super) settled: bool,
+    /// The largest rates that multiply the model while the errors stay in the envelope.
+    pub(super) rates: Rates,
+    /// The largest share of a torque limit that the first step may ask; 0 where there are none.
+    pub(super) first_step: f64,
     pub(super) guarantee: Guarantee,
 }
 
@@ -59,6 +65,10 @@ pub(super) struct Parts<'a> {
     pub(super) gains: &'a super::Gains,
     pub(super) form: Form,
     pub(super) disturbance: &'a [f64],
+    /// What the motion itself takes; `None` without one.
+    pub(super) feedforward: Option<&'a Feedforward>,
+    /// Coulomb friction that the command compensates.
+    pub(super) coulomb: &'a [[f64; 2]],
     pub(super) tuning: &'a super::Tuning,
     /// Initial position and velocity error.
     pub(super) initial: [Vec<f64>; 2],
@@ -111,7 +121,8 @@ impl Parts<'_> {
             self.delta_c1.map(<[_]>::to_vec).unwrap_or_else(|| family::multiple_of_identity(k_star, n));
 
         let load = course.load(&envelope.position_error, &envelope.velocity_error, &delta_c);
-        let period_max = self.longest_period(&inertia, over.clone(), &delta_c1, &course, &load.gain);
+        let longest = self.longest_period(&inertia, over.clone(), &delta_c1, &course, &load.gain);
+        let period_max = longest.period;
         let final_error = if self.sketch {
             envelope.position_error.clone()
         } else {
@@ -127,8 +138,20 @@ impl Parts<'_> {
                 self.tuning.period
             ));
         }
-        let beyond = |motion| beyond_torque_limits(arm, uncertainty, motion);
-        reasons.extend(motion.map_or(Vec::new(), beyond));
+        if !longest.certified {
+            reasons.push(format!(
+                "the longest period of {period_max:.3e} s could not be certified over the domain: narrow the tube or the intervals of uncertainty"
+            ));
+        }
+        match self.feedforward {
+            Some(taken) => reasons.extend(taken.beyond_limits(arm, self.coulomb)),
+            None => reasons.push(
+                "without a motion nothing says how fast the torque changes that is held for a period"
+                    .to_string(),
+            ),
+        }
+        let (first_step, short) = self.first_step(&course, &delta_c, &delta_c1);
+        reasons.extend(short);
         let chatter = course.ball(&load, true) + course.parameter_energy();
         if control.law.is_robust() && self.layer().is_none() && chatter > envelope.level {
             reasons.push(format!(
@@ -155,6 +178,7 @@ impl Parts<'_> {
         if !leaves.is_empty() {
             reasons.push(leaves.join("; "));
         }
+        let (rates, _) = course.rates(&envelope.position_error, &envelope.velocity_error);
         let guarantee = Guarantee {
             holds: reasons.is_empty(),
             reasons,
@@ -164,11 +188,21 @@ impl Parts<'_> {
             tube_needed,
             inertia: facts,
         };
-        Ok(Judgement { envelope, delta_c, k_star, delta_c1, gain: load.gain, settled, guarantee })
+        Ok(Judgement {
+            envelope,
+            delta_c,
+            k_star,
+            delta_c1,
+            gain: load.gain,
+            settled,
+            rates,
+            first_step,
+            guarantee,
+        })
     }
 
     fn course<'b>(&'b self, inertia: &'b InertiaBounds, reach: &[f64]) -> Result<Course<'b>, Error> {
-        let Problem { arm, motion, bounds, control, uncertainty, .. } = *self.problem;
+        let Problem { arm, motion, bounds, control, .. } = *self.problem;
         let limit = |of: fn(&crate::arm::Limits) -> Option<f64>| -> Vec<f64> {
             arm.joints.iter().map(|joint| of(&joint.limits).unwrap_or(0.0)).collect()
         };
@@ -187,8 +221,10 @@ impl Parts<'_> {
             disturbance: self.disturbance,
             layer: self.layer(),
             period: self.tuning.period,
-            lag: motion
-                .map_or_else(|| vec![0.0; arm.dof()], |m| lag(arm, uncertainty, m, self.tuning.period)),
+            lag: self.feedforward.map_or_else(
+                || vec![0.0; arm.dof()],
+                |taken| taken.rate.iter().map(|rate| rate * self.tuning.period).collect(),
+            ),
             learning: self.adaptation.map(learning).transpose()?,
         })
     }
@@ -200,7 +236,7 @@ impl Parts<'_> {
         delta_c1: &[Vec<f64>],
         course: &Course,
         gain: &[f64],
-    ) -> f64 {
+    ) -> Longest {
         let control = self.problem.control;
         let n = gain.len();
         let mut slope: Vec<f64> = match self.layer() {
@@ -217,8 +253,46 @@ impl Parts<'_> {
         }
         let zero = vec![vec![0.0; n]; n];
         let more = if self.has_matrix() { delta_c1 } else { &zero };
-        let pull = super::linalg::symmetric_eigenvalues(&self.gains.p12).last().copied().unwrap_or(0.0);
-        2.0 / (fastest(inertia, over, &total(&self.gains.damping, more, &slope)) + pull)
+        let pull = super::verified::largest_eigenvalue(&super::linalg::dense(&self.gains.p12));
+        let Fastest { rate, certified } = fastest(inertia, over, &total(&self.gains.damping, more, &slope));
+        Longest { period: 2.0 / (rate + pull), certified }
+    }
+
+    /// The largest share of a torque limit that the first step may ask of a joint, and what is said where that is too
+    /// much: of the arm as specified, what its model is off by, and the switching terms.
+    fn first_step(&self, course: &Course, delta_c: &[Vec<f64>], delta_c1: &[Vec<f64>]) -> (f64, Vec<String>) {
+        let Problem { arm, motion, bounds, control, .. } = *self.problem;
+        let Some(motion) = motion.filter(|_| arm.joints.iter().any(|joint| joint.limits.torque.is_some()))
+        else {
+            return (0.0, Vec::new());
+        };
+        let n = arm.dof();
+        let [position, velocity] = &self.initial;
+        let zero = vec![vec![0.0; n]; n];
+        let more = if self.has_matrix() { delta_c1 } else { &zero };
+        let start = Start { target: &motion.at(0.0), position, velocity };
+        let (rates, s) = course.rates(position, velocity);
+        let (model, load) = (bounds.torque(&rates), course.load(position, velocity, delta_c));
+        let switching = |i: usize| match self.layer() {
+            _ if !control.law.is_robust() => 0.0,
+            Some(phi) => load.gain[i] * (s[i] / phi[i]).min(1.0),
+            None => load.gain[i],
+        };
+        let friction = |i: usize| self.coulomb[i][0].max(-self.coulomb[i][1]);
+        let total = |(i, asked): (usize, f64)| asked + model[i] + switching(i) + friction(i);
+        let asked = asked(arm, self.gains, more, &start).into_iter().enumerate().map(total);
+        let mut share = 0.0_f64;
+        let mut reasons = Vec::new();
+        for (number, (asked, joint)) in (1..).zip(asked.zip(&arm.joints)) {
+            let Some(limit) = joint.limits.torque else { continue };
+            share = share.max(asked / limit);
+            if asked >= limit {
+                reasons.push(format!(
+                    "the initial errors may ask {asked:.4} of joint {number} in the first step, its torque limit is {limit}"
+                ));
+            }
+        }
+        (share, reasons)
     }
 
     fn layer(&self) -> Option<&[f64]> {
@@ -253,6 +327,12 @@ impl Parts<'_> {
         }
         Ok(None)
     }
+}
+
+/// The longest period, s, and whether nothing in the domain is faster than it supposes.
+struct Longest {
+    period: f64,
+    certified: bool,
 }
 
 /// What helps a law that holds no level of V.

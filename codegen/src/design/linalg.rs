@@ -7,6 +7,11 @@ pub(crate) fn dense(m: &[Vec<f64>]) -> DMatrix<f64> {
     DMatrix::from_fn(m.len(), m.len(), |i, j| m[i][j])
 }
 
+/// ½(M + Mᵀ): the same quadratic form.
+pub(crate) fn symmetric(m: &DMatrix<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(m.nrows(), m.ncols(), |i, j| 0.5 * (m[(i, j)] + m[(j, i)]))
+}
+
 /// By rows.
 pub(crate) fn rows(m: &DMatrix<f64>) -> Vec<Vec<f64>> {
     (0..m.nrows()).map(|i| (0..m.ncols()).map(|j| m[(i, j)]).collect()).collect()

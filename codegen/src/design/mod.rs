@@ -3,6 +3,7 @@
 mod adaptation;
 mod family;
 mod feedforward;
+mod first_step;
 mod form;
 mod gains;
 mod guarantee;
@@ -16,6 +17,7 @@ mod settling;
 #[cfg(test)]
 mod tests;
 mod tuning;
+mod verified;
 mod wish;
 
 use std::path::Path;
@@ -30,7 +32,7 @@ pub use reach::Envelope;
 pub use tuning::Tuning;
 
 use crate::arm::{Arm, Uncertainty};
-use crate::bounds::Bounds;
+use crate::bounds::{Bounds, Rates};
 use crate::check::{matrix, vector};
 use crate::error::{Error, Faults};
 use crate::lagrangian::Lagrangian;
@@ -39,6 +41,7 @@ use crate::motion::Motion;
 use crate::progress::{self, Progress};
 use crate::reduction::Regression;
 use crate::spec::{ControlSpec, CoriolisTermSpec, LawSpec, OnFaultSpec};
+use feedforward::Feedforward;
 
 /// Everything a controller needs beside its model.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +56,9 @@ pub struct Design {
     pub omega: Vec<Vec<f64>>,
     /// What the errors and speeds stay below, given the initial error.
     pub envelope: Envelope,
+    /// The largest rates that multiply the model while the errors stay in the envelope, feedback included; `None` where no
+    /// level of V holds them.
+    pub rates: Option<Rates>,
     /// ΔC of equation (30), n×n, N·m·s/rad.
     pub delta_c: Vec<Vec<f64>>,
     /// k* = λ_max(sym ΔC), N·m·s/rad.
@@ -119,19 +125,18 @@ pub fn design(problem: &Problem) -> Result<Design, Error> {
         Some(wish) => wish::tune(&stage, wish)?,
         None => Tuning::given(control, n)?,
     };
-    let coulomb = |joint: &crate::arm::Joint| {
-        if control.compensate_coulomb { joint.coulomb_friction } else { [0.0; 2] }
-    };
     let told = progress::Stage::new(problem.progress, "guarantee", 1);
     let (gains, judgement) = stage.judge(&tuning)?;
     drop(told);
-    let guarantee::Judgement { envelope, delta_c, k_star, delta_c1, guarantee, .. } = judgement;
+    let guarantee::Judgement { envelope, delta_c, k_star, delta_c1, guarantee, rates, settled, .. } =
+        judgement;
     let design = Design {
         law: control.law,
         gains,
         w: tuning.w,
         omega: tuning.omega,
         envelope,
+        rates: settled.then_some(rates),
         delta_c,
         k_star,
         coriolis_term: control.coriolis_term,
@@ -140,7 +145,7 @@ pub fn design(problem: &Problem) -> Result<Design, Error> {
         boundary_layer: tuning.boundary_layer,
         period: tuning.period,
         torque_limit: arm.joints.iter().map(|joint| joint.limits.torque).collect(),
-        coulomb: arm.joints.iter().map(coulomb).collect(),
+        coulomb: stage.coulomb,
         on_fault: control.on_fault,
         adaptation: stage.adaptation,
         guarantee,
@@ -159,6 +164,10 @@ struct Stage<'a> {
     /// Initial position and velocity error.
     initial: [Vec<f64>; 2],
     delta_c1: Option<Vec<Vec<f64>>>,
+    /// What the motion itself takes; `None` without one.
+    feedforward: Option<Feedforward>,
+    /// Coulomb friction that the command compensates, forwards and backwards, by joint.
+    coulomb: Vec<[f64; 2]>,
 }
 
 impl<'a> Stage<'a> {
@@ -172,8 +181,14 @@ impl<'a> Stage<'a> {
         };
         let initial = &control.initial_error;
         let given = |m| checked("control.delta_c1", matrix(m, n));
+        let coulomb = |joint: &crate::arm::Joint| {
+            if control.compensate_coulomb { joint.coulomb_friction } else { [0.0; 2] }
+        };
+        let along = |motion| Feedforward::new(arm, problem.uncertainty, motion);
         Ok(Self {
             problem,
+            feedforward: problem.motion.map(along),
+            coulomb: arm.joints.iter().map(coulomb).collect(),
             adaptation: Adaptation::new(problem)?,
             disturbance: arm.joints.iter().map(disturbance).collect(),
             initial: [
@@ -211,6 +226,8 @@ impl<'a> Stage<'a> {
             gains: &gains,
             form,
             disturbance: &self.disturbance,
+            feedforward: self.feedforward.as_ref(),
+            coulomb: &self.coulomb,
             tuning,
             initial: self.initial.clone(),
             delta_c1: self.delta_c1.as_deref(),

@@ -3,7 +3,7 @@
 use super::adaptation::Learning;
 use super::form::{Form, InertiaBounds};
 use super::gains::Gains;
-use super::linalg::{dense, inverse, weighed};
+use super::linalg::weighed;
 use crate::bounds::{Bounds, Rates};
 use crate::error::Error;
 use crate::spec::{CoriolisTermSpec, LawSpec};
@@ -65,16 +65,13 @@ impl Course<'_> {
     pub(super) fn errors(&self, v: f64, start: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Error> {
         let n = start.len();
         let p12 = &self.gains.p12;
-        let singular = || Error::Internal("Pqq is singular after its check".to_string());
-        let compliance = inverse(&self.gains.pqq).ok_or_else(singular)?;
         let diagonal = (0..n).all(|i| (0..n).all(|j| i == j || p12[i][j].abs() < 1e-12 * p12[i][i]));
         let s: Vec<f64> = self.inertia.mobility.iter().map(|m| libm::sqrt(2.0 * v * m)).collect();
         let length = |x: f64| libm::sqrt(2.0 * v / self.inertia.least) / x;
-        let slowest = dense(p12).symmetric_eigenvalues().min();
-        let together = libm::sqrt(start.iter().map(|e| e * e).sum()).max(length(slowest));
+        let together = libm::sqrt(start.iter().map(|e| e * e).sum()).max(length(self.form.slowest));
         let position: Vec<f64> = (0..n)
             .map(|i| {
-                let level = libm::sqrt(2.0 * v * compliance[i][i]);
+                let level = libm::sqrt(2.0 * v * self.form.compliance[i]);
                 level.min(if diagonal { start[i].max(s[i] / p12[i][i]) } else { together })
             })
             .collect();
@@ -116,9 +113,8 @@ impl Course<'_> {
         Load {
             gain,
             taught: learning.map_or(vec![0.0; n], |learning| learning.torque(&rates)),
-            step: learning.map_or(0.0, |learning| {
-                learning.step(&rates, |i, j| self.form.inverse[(i, j)].abs(), self.period)
-            }),
+            step: learning
+                .map_or(0.0, |learning| learning.step(&rates, |i, j| self.form.inverse[(i, j)], self.period)),
         }
     }
 
@@ -152,8 +148,7 @@ impl Course<'_> {
             (_, None) if chatter => c = self.chatter(gain),
             (_, None) => {}
         }
-        let row =
-            |i: usize| h.iter().enumerate().map(|(j, h)| self.form.inverse[(i, j)].abs() * h).sum::<f64>();
+        let row = |i: usize| h.iter().enumerate().map(|(j, h)| self.form.inverse[(i, j)] * h).sum::<f64>();
         let eta = libm::sqrt(h.iter().enumerate().map(|(i, h)| h * row(i)).sum::<f64>());
         let left = 1.0 - step;
         if left <= 0.0 {

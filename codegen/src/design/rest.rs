@@ -12,6 +12,7 @@ use super::form::{BUDGET, TOLERANCE};
 use super::inertia::{Cell, Inertia};
 use super::linalg::{dense, weighed};
 use super::reach::{Course, Envelope, Load};
+use super::verified::largest_eigenvalue;
 use crate::error::Error;
 
 /// Rounds in which the errors shrink, and the relative gain below which a round was the last.
@@ -134,7 +135,7 @@ impl Course<'_> {
         let damping: Vec<f64> = dense(&gains.damping).diagonal().iter().copied().collect();
         let largest = |d: &DMatrix<f64>, g: &[f64]| {
             let scaled = DMatrix::from_fn(n, n, |i, j| d[(i, j)] / libm::sqrt(g[i] * g[j]));
-            scaled.symmetric_eigenvalues().max()
+            largest_eigenvalue(&scaled)
         };
         let extremes = inertia.largest(over, TOLERANCE, BUDGET / (n * n), |_, high| {
             vec![largest(high, &inertias), largest(high, &damping)]

@@ -24,6 +24,8 @@ const STEPS: i32 = 50;
 /// Halvings of the interval of exponents in which the smallest gain lies, and its lower end.
 const HALVINGS: u32 = 6;
 const SOFTEST: f64 = 1.0 / 256.0;
+/// Ratio from one gain to the next, where a softer one is sought for the sake of a torque limit.
+const SOFTER: f64 = 0.7;
 
 /// Errors relative to the room from which a hasty search does not go on.
 const FAR: f64 = 2.0;
@@ -95,7 +97,7 @@ impl<'a> Scene<'a> {
         let values = if certified { extremes.bound } else { extremes.seen };
         let (mobility, heaviest) = (values[..n].to_vec(), values[n..].to_vec());
         let inertias: Vec<f64> = mobility.iter().map(|m| 1.0 / m).collect();
-        let coupling = fastest(&inertia, over, &diagonal(&inertias));
+        let coupling = fastest(&inertia, over, &diagonal(&inertias)).rate;
         Self { stage, target, mobility, heaviest, coupling, certified }
     }
 
@@ -110,7 +112,7 @@ impl<'a> Scene<'a> {
     pub(super) fn find_each(&self, period: f64, hasty: bool) -> Result<Option<Candidate>, Error> {
         let Some((mix, firmest)) = self.firmest(period, hasty)? else { return Ok(None) };
         if !firmest.holds {
-            return Ok(Some(firmest));
+            return self.softer(period, mix, firmest).map(Some);
         }
         // Each in the middle between the softest gains that hold and the firmest that the period bears.
         let rho = firmest.judged.gain.clone();
@@ -124,6 +126,20 @@ impl<'a> Scene<'a> {
         let capped = |cap: f64| holds(gain, Mix { cap, ..mix });
         let cap = middle(SOFTEST * most, most, |cap| Ok(capped(cap)?.is_some_and(|c| c.holds)))?;
         Ok(Some(capped(cap)?.filter(|candidate| candidate.holds).unwrap_or(chosen)))
+    }
+
+    /// Less gain, where it is the first step's torque that the most gain fails by; `firmest` where that does not help.
+    fn softer(&self, period: f64, mix: Mix, firmest: Candidate) -> Result<Candidate, Error> {
+        let rho = firmest.judged.gain.clone();
+        let mut gain = SOFTER;
+        while firmest.judged.first_step >= 1.0 && gain > SOFTEST {
+            let candidate = self.candidate(period, gain, mix, &rho, f64::INFINITY)?;
+            if let Some(candidate) = candidate.filter(|candidate| candidate.holds) {
+                return Ok(candidate);
+            }
+            gain *= SOFTER;
+        }
+        Ok(firmest)
     }
 
     /// The best mix of the most gain that the period bears.
@@ -205,7 +221,7 @@ impl<'a> Scene<'a> {
         let reach = if judged.settled { errors.map(share).fold(0.0, f64::max) } else { f64::INFINITY };
         let pace = tuning.period / judged.guarantee.period_max / USED;
         let holds = judged.guarantee.holds && reach <= 1.0 && pace <= 1.0;
-        Candidate { tuning, score: reach.max(pace), reach, holds, judged }
+        Candidate { tuning, score: reach.max(pace).max(judged.first_step), reach, holds, judged }
     }
 
     /// Gains with the smallest P12 = λI that is fast enough; `None` where there is none.

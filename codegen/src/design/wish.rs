@@ -1,6 +1,5 @@
 //! What a specification asks of the gains: gains that achieve it, or what stands in the way.
 
-use super::feedforward::beyond_torque_limits;
 use super::region::{outside, room, width};
 use super::search::{Candidate, Scene, Target};
 use super::{Stage, Tuning, checked};
@@ -22,7 +21,7 @@ const STALLED: f64 = 0.97;
 /// # Errors
 /// [`Error::Input`] with what cannot be met, and by how much.
 pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
-    let super::Problem { file, arm, domain, motion, uncertainty, progress, .. } = *stage.problem;
+    let super::Problem { file, arm, domain, motion, progress, .. } = *stage.problem;
     let n = arm.dof();
     let tube = |tube| checked("control.design.tube", vector(tube, n));
     let own = room(domain, motion, arm);
@@ -35,7 +34,8 @@ pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
     let told = progress::Stage::new(progress, "search for gains", periods.len());
     let scene = Scene::new(stage, &target);
     let mut hopeless = outside(domain, motion, arm, &vec![0.0; n]);
-    hopeless.extend(motion.map_or(Vec::new(), |motion| beyond_torque_limits(arm, uncertainty, motion)));
+    let taken = stage.feedforward.as_ref();
+    hopeless.extend(taken.map_or(Vec::new(), |taken| taken.beyond_limits(arm, &stage.coulomb)));
     let closed = (1..).zip(&own).filter(|(_, room)| **room <= 0.0);
     hopeless.extend(closed.map(|(number, _)| format!("joint {number} has no room for errors")));
     if !scene.certified {
@@ -71,6 +71,17 @@ pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
             nearest = Some(candidate);
         }
     }
+    if let Some(nearest) = nearest.as_ref().filter(|nearest| short_of_torque(nearest)) {
+        let asks = |reason: &&String| reason.starts_with("the initial errors");
+        let reasons: Vec<&str> =
+            nearest.judged.guarantee.reasons.iter().filter(asks).map(String::as_str).collect();
+        faults.push(
+            "control.design",
+            format!("cannot be met: with the gains that come nearest {}", reasons.join("; ")),
+            "take a smaller initial error, allow more time to converge, or raise the torque limits if the drives bear it",
+        );
+        return Err(faults.into_error());
+    }
     let shorter = match wish.period {
         Some(period) => {
             let _told = progress::Stage::new(progress, "longest period", 1);
@@ -104,6 +115,11 @@ pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
     let own_width = width(domain, n);
     too_narrow(stage, wish, &nearest, asked.as_deref(), own_width.as_deref(), &mut faults)?;
     Err(faults.into_error())
+}
+
+/// Whether it is the torque of the first step alone that a candidate fails by.
+fn short_of_torque(candidate: &Candidate) -> bool {
+    candidate.reach <= 1.0 && candidate.judged.first_step >= 1.0
 }
 
 /// The fault of a tube that errors leave under the best gains.

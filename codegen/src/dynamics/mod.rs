@@ -1,10 +1,12 @@
 //! Rigid-body dynamics by one plain recursion: the oracle for everything that is faster.
 
+mod jet;
 mod model;
 mod norms;
 mod recursion;
 mod scalar;
 
+pub use jet::Jet;
 pub(crate) use model::positions;
 pub use model::{coriolis, energy, gravity, inverse_dynamics, mass_matrix};
 pub use norms::{Size, Sizes};

@@ -2,7 +2,9 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// A commutative ring with f64 constants: f64 itself, or a node of an expression graph.
+use crate::interval::Interval;
+
+/// A commutative ring with f64 constants: f64 itself, a node of an expression graph, or an enclosure.
 pub trait Scalar:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
@@ -13,6 +15,12 @@ pub trait Scalar:
 impl Scalar for f64 {
     fn constant(self, x: f64) -> Self {
         x
+    }
+}
+
+impl Scalar for Interval {
+    fn constant(self, x: f64) -> Self {
+        Self::point(x)
     }
 }
 

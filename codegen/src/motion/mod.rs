@@ -3,6 +3,7 @@
 mod csv;
 mod enclosure;
 mod limits;
+mod span;
 mod spline;
 
 use std::path::Path;
@@ -14,6 +15,7 @@ use crate::spec::MotionSpec;
 
 pub use enclosure::Reach;
 pub use limits::check_limits;
+pub use span::Span;
 pub use spline::Spline;
 
 /// A desired motion of n joints, evaluated by the very functions that run on the device.
