@@ -9,7 +9,7 @@ use std::path::Path;
 
 use crate::arm::{Arm, Built, JointKind, Uncertainty, indefinite, indefinite_among};
 use crate::body::{self, Form, Regressor};
-use crate::bounds::{Bounds, Certificate, Effort, Torque, reach, rounded_angles};
+use crate::bounds::{Bounds, Certificate, Effort, Met, Torque, reach, rounded_angles};
 use crate::check::{examine, vector};
 use crate::design::{Design, Problem, checked, design};
 use crate::dynamics::mass_matrix;
@@ -66,6 +66,8 @@ pub struct Generation {
     pub bounds: Bounds,
     /// What that costs in torque; `None` over a workspace where a joint lacks a limit.
     pub torque: Option<Torque>,
+    /// What it costs at the rates that the law meets; `None` without a controller, or where no level of V holds the errors.
+    pub met: Option<Met>,
     /// The controller.
     pub design: Option<Design>,
     /// Form of the emitted body.
@@ -227,7 +229,7 @@ impl Generation {
         if let Some(regressor) = &mut regressor {
             regressor.code.sines = sines.clone();
         }
-        code.sines = sines;
+        code.sines = sines.clone();
         if !(reduced.is_finite() && bounds.is_finite()) {
             let mend = "write positions, speeds and the measure in SI units";
             return refused(&|faults| {
@@ -258,7 +260,13 @@ impl Generation {
             let mend = "write gains and initial errors in SI units";
             return refused(&|faults| faults.push("control", problem, mend));
         }
+        let met = {
+            let _stage = Stage::new(progress, "torque error of the law", 1);
+            let rates = design.as_ref().and_then(|design| design.rates.as_ref());
+            rates.map(|rates| left.met(&certificates, &bounds, rates))
+        };
         Ok(Self {
+            met,
             arm,
             given,
             warnings,
@@ -295,6 +303,7 @@ impl Generation {
             reduced: &self.reduced,
             bounds: &self.bounds,
             torque: self.torque.as_ref(),
+            met: self.met.as_ref(),
             verdict: &self.verdict(),
             domain: &self.domain,
             form: self.form,

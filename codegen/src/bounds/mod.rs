@@ -39,7 +39,7 @@ pub use region::reach;
 pub(crate) use rounding::{printed_down, printed_up, published};
 pub(crate) use sines::largest_growth;
 pub use sines::with_sines;
-pub use torque::{Torque, largest_torque, peak_torque, separate_error, torque_error, torque_exceeds};
+pub use torque::{Met, Torque, peak_torque, separate_error, torque_error, torque_exceeds};
 
 use rayon::prelude::*;
 
@@ -110,6 +110,22 @@ impl Certificate {
     }
 }
 
+/// The largest bound/found of all certificates but those of dust: residuals that are nothing beside their coefficient
+/// need not be bounded sharply.
+pub fn worst_ratio(lagrangian: &Lagrangian, certificates: &[Certificate]) -> f64 {
+    let matters = |(certificate, coefficient): &(&Certificate, &Coefficient)| {
+        certificate.bound > 2.0 * FLOOR * size(coefficient)
+    };
+    let pairs = certificates.iter().zip(&lagrangian.coefficients).filter(matters);
+    pairs.map(|(certificate, _)| certificate.ratio()).fold(1.0, f64::max)
+}
+
+/// Σ|k_l| of a coefficient and of its derivatives by the uncertain parameters.
+fn size(coefficient: &Coefficient) -> f64 {
+    let terms = coefficient.terms.iter().chain(coefficient.variations.iter().flatten());
+    terms.map(|(_, k)| k.abs()).sum()
+}
+
 /// A certificate for each coefficient over the domain and all uncertain parameters; zero for those that are exact. The
 /// same on any number of threads.
 pub fn certified(
@@ -170,9 +186,7 @@ fn certify(
             if let Some(certificate) = known(m) {
                 return certificate;
             }
-            let coefficient = &lagrangian.coefficients[m];
-            let terms = coefficient.terms.iter().chain(coefficient.variations.iter().flatten());
-            let size: f64 = terms.map(|(_, k)| k.abs()).sum();
+            let size = size(&lagrangian.coefficients[m]);
             let proof = branch::maximum(&residuals, domain, motion, effort, FLOOR * size);
             let rounding = rounding::published(lagrangian, m, reduced, &reach);
             let bound = (proof.upper + rounding).next_up();

@@ -1,4 +1,4 @@
-//! The largest torque over a workspace, from below.
+//! The largest torque over a workspace, from below: what errors are measured by, never what limits are judged by.
 
 use rayon::prelude::*;
 
@@ -8,12 +8,23 @@ use crate::dynamics::{gravity, inverse_dynamics, mass_matrix};
 use crate::spread::{Spread, corner, in_box};
 
 /// Positions looked at, besides the corners.
-const POSITIONS: usize = 512;
-/// Steps of the search from the best position, as fractions of the joints' ranges.
-const STEPS: [f64; 5] = [0.125, 0.0625, 0.03125, 0.0078125, 0.001953125];
+const POSITIONS: usize = 1024;
+/// The best of them from which a search starts, no two of them nearer than this part of the joints' ranges, and how many
+/// of the searches are followed to the end.
+const STARTS: usize = 12;
+const APART: f64 = 0.15;
+const FINALISTS: usize = 3;
+/// Steps of a search as fractions of the joints' ranges: those that all starts take, and those that the best end with.
+const COARSE: [f64; 2] = [0.125, 0.0625];
+const FINE: [f64; 6] = [0.03125, 0.0078125, 0.001953125, 4.8828125e-4, 1.220703125e-4, 3.0517578125e-5];
+/// Rounds over all joints with one step.
+const ROUNDS: usize = 6;
 
 /// Largest |τ_i| found by joint, N·m or N, without friction: over positions in `limits` and all speeds and accelerations
-/// up to `rates`. A search, whose result is attained: the true maximum may be larger, never smaller.
+/// up to `rates`.
+///
+/// A search, whose result is attained: the true maximum may be larger, never smaller. So what is allowed as a part of this
+/// peak is no larger a part of the true one.
 pub fn workspace_peak_torque(arm: &Arm, limits: &[[f64; 2]], rates: &Rates) -> Vec<f64> {
     let n = arm.dof();
     let spread = Spread::new(n);
@@ -23,31 +34,65 @@ pub fn workspace_peak_torque(arm: &Arm, limits: &[[f64; 2]], rates: &Rates) -> V
         .collect();
     let torque = |unit: &[f64]| largest(arm, &in_box(limits, unit), rates);
     let seen: Vec<Vec<f64>> = units.par_iter().map(|unit| torque(unit)).collect();
+    let value = |unit: &[f64], i: usize| torque(unit)[i];
     (0..n)
         .into_par_iter()
         .map(|i| {
-            let mut best = 0;
-            for (index, peaks) in seen.iter().enumerate() {
-                if peaks[i] > seen[best][i] {
-                    best = index;
-                }
-            }
-            let (mut at, mut peak) = (units[best].clone(), seen[best][i]);
-            for step in STEPS {
-                for j in 0..n {
-                    for turn in [step, -step] {
-                        let mut next = at.clone();
-                        next[j] = (next[j] + turn).clamp(0.0, 1.0);
-                        let there = torque(&next)[i];
-                        if there > peak {
-                            (at, peak) = (next, there);
-                        }
+            let starts = apart(&units, |index| seen[index][i]);
+            let climb =
+                |&index: &usize| climb((units[index].clone(), seen[index][i]), &COARSE, |u| value(u, i));
+            let mut summits: Vec<(Vec<f64>, f64)> = starts.par_iter().map(climb).collect();
+            summits.sort_by(|a, b| b.1.total_cmp(&a.1));
+            summits.truncate(FINALISTS);
+            let ends = summits.into_par_iter().map(|start| self::climb(start, &FINE, |u| value(u, i)).1);
+            ends.collect::<Vec<f64>>().into_iter().fold(0.0, f64::max)
+        })
+        .collect()
+}
+
+/// The indices of the highest of `units`, none near another.
+fn apart(units: &[Vec<f64>], height: impl Fn(usize) -> f64) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..units.len()).collect();
+    order.sort_by(|&a, &b| height(b).total_cmp(&height(a)));
+    let mut chosen: Vec<usize> = Vec::new();
+    for index in order {
+        let near =
+            |&other: &usize| units[index].iter().zip(&units[other]).all(|(a, b)| (a - b).abs() < APART);
+        if !chosen.iter().any(near) {
+            chosen.push(index);
+        }
+        if chosen.len() == STARTS {
+            break;
+        }
+    }
+    chosen
+}
+
+/// Climbs along the axes of the unit cube, with each step until it brings nothing more.
+fn climb(
+    (mut at, mut peak): (Vec<f64>, f64),
+    steps: &[f64],
+    value: impl Fn(&[f64]) -> f64,
+) -> (Vec<f64>, f64) {
+    for step in steps {
+        for _ in 0..ROUNDS {
+            let before = peak;
+            for j in 0..at.len() {
+                for turn in [*step, -step] {
+                    let mut next = at.clone();
+                    next[j] = (next[j] + turn).clamp(0.0, 1.0);
+                    let there = value(&next);
+                    if there > peak {
+                        (at, peak) = (next, there);
                     }
                 }
             }
-            peak
-        })
-        .collect()
+            if peak <= before {
+                break;
+            }
+        }
+    }
+    (at, peak)
 }
 
 /// At one position: accelerations in the worst corner of their box, speeds in the worst of the corners of theirs.

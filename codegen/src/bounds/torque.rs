@@ -8,7 +8,7 @@ use super::residual::Residual;
 use super::sum::{Part, Stop};
 use super::weighted::Weighted;
 use super::{Certificate, lattice, residuals, rounding};
-use crate::arm::{Arm, Uncertainty};
+use crate::arm::Arm;
 use crate::dynamics::inverse_dynamics;
 use crate::lagrangian::Lagrangian;
 use crate::measure::Domain;
@@ -34,8 +34,20 @@ pub struct Torque {
     /// Certified bound on the torque error by joint, N·m or N, for rates up to the motion's own, over a workspace up to
     /// the joints' limits.
     pub error: Vec<f64>,
-    /// Largest torque of the exact model by joint, N·m or N: along the motion, over a workspace the largest found.
+    /// Largest torque of the exact model found by joint, N·m or N: along the motion, or over the workspace at the same
+    /// rates. It is attained, so the true peak is no smaller, and the error no larger a part of it.
     pub peak: Vec<f64>,
+    /// The rates for which the error holds.
+    pub rates: Rates,
+}
+
+/// The torque error that a tracking law meets: the motion's own rates with what feedback adds to them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Met {
+    /// Largest |q̇|, |v_r| and |a_r| while the errors stay in their envelope.
+    pub rates: Rates,
+    /// Certified bound on |δD a_r + δC v_r + δG| by joint, N·m or N, for these rates, inside the domain.
+    pub error: Vec<f64>,
 }
 
 impl Torque {
@@ -159,21 +171,14 @@ impl<'a> Sums<'a> {
     }
 }
 
-/// Largest |τ| by joint along the motion, N·m or N, without friction.
+/// Largest |τ| by joint at some instants of the motion, N·m or N, without friction: attained, so the true peak is no
+/// smaller. Good to measure errors by, not to judge limits by.
 pub fn peak_torque(arm: &Arm, motion: &Motion) -> Vec<f64> {
-    largest_torque(arm, &Uncertainty::default(), motion)
-}
-
-/// The same of any arm of a family: τ is affine in the uncertain parameters.
-pub fn largest_torque(arm: &Arm, uncertainty: &Uncertainty, motion: &Motion) -> Vec<f64> {
-    let alone: Vec<Arm> = (0..uncertainty.parameters.len()).map(|k| uncertainty.alone(arm, k)).collect();
     let mut peak = vec![0.0_f64; arm.dof()];
     for k in 0..=INSTANTS {
         let target = motion.at(motion.duration() * f64::from(k) / f64::from(INSTANTS));
-        let torque = |arm: &Arm| inverse_dynamics(arm, &target.q, &target.qd, &target.qdd);
-        let slopes: Vec<Vec<f64>> = alone.iter().map(torque).collect();
-        let largest = uncertainty.largest(&torque(arm), &slopes);
-        peak.iter_mut().zip(largest).for_each(|(peak, tau)| *peak = peak.max(tau));
+        let torque = inverse_dynamics(arm, &target.q, &target.qd, &target.qdd);
+        peak.iter_mut().zip(torque).for_each(|(peak, tau)| *peak = peak.max(tau.abs()));
     }
     peak
 }

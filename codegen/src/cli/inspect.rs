@@ -50,6 +50,13 @@ struct Inspection<'a> {
     torque_error: Option<Vec<f64>>,
     /// Largest torque by joint, N·m or N: along the motion, over a workspace the largest found within the joints' limits.
     peak_torque: Option<Vec<f64>>,
+    /// The rates for which `torque_error` holds.
+    torque_rates: Option<RatesView<'a>>,
+    /// The same error at the rates that the law meets, its feedback included; `null` without a controller, or where nothing
+    /// holds the errors.
+    torque_error_of_law: Option<&'a [f64]>,
+    /// These rates.
+    law_rates: Option<RatesView<'a>>,
     domain: DomainView,
     form: &'static str,
     operations: Costs,
@@ -78,7 +85,7 @@ struct BoundsView<'a> {
     B: Vec<Vec<f64>>,
     /// ΔC of equation (30); absent without a controller.
     C: Option<&'a [Vec<f64>]>,
-    /// Largest bound/found over the simplified coefficients.
+    /// Largest bound/found over the simplified coefficients, dust apart.
     worst_ratio: f64,
     /// Equation (11); absent over a workspace.
     estimate: Option<EstimateView>,
@@ -95,6 +102,14 @@ struct EstimateView {
     D: Vec<Vec<f64>>,
     H: Vec<Vec<Vec<f64>>>,
     G: Vec<f64>,
+}
+
+/// Largest rates by joint, rad/s or m/s and rad/s² or m/s².
+#[derive(Serialize)]
+struct RatesView<'a> {
+    speed: &'a [f64],
+    reference_speed: &'a [f64],
+    reference_acceleration: &'a [f64],
 }
 
 #[derive(Serialize)]

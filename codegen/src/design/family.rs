@@ -1,6 +1,7 @@
 //! Interval families of symmetric matrices: whether ΔC1 outweighs every δC with |δC| ≤ ΔC.
 
-use super::linalg::symmetric_eigenvalues;
+use super::linalg::{dense, symmetric_eigenvalues};
+use super::verified::largest_eigenvalue;
 
 /// λ_min of ΔC1 + sym(δC) over all |δC| ≤ ΔC, N·m·s/rad.
 ///
@@ -18,10 +19,13 @@ pub fn least_eigenvalue(delta_c1: &[Vec<f64>], delta_c: &[Vec<f64>]) -> f64 {
     (0..1_usize << n.saturating_sub(1)).map(at).fold(f64::INFINITY, f64::min)
 }
 
-/// k* = λ_max(sym ΔC), the smallest k for which k·I outweighs the family, N·m·s/rad: with ΔC ≥ 0 the all-plus vector
+/// k* = λ_max(sym ΔC) from above, the smallest k for which k·I outweighs the family, N·m·s/rad: with ΔC ≥ 0 the all-plus vector
 /// of signs is the worst.
 pub fn smallest_multiple(delta_c: &[Vec<f64>]) -> f64 {
-    symmetric_eigenvalues(&symmetric_part(delta_c)).last().copied().unwrap_or(0.0).max(0.0)
+    if delta_c.iter().flatten().all(|entry| *entry == 0.0) {
+        return 0.0;
+    }
+    largest_eigenvalue(&dense(&symmetric_part(delta_c)))
 }
 
 /// Whether `least`, from [`least_eigenvalue`], is not negative but for rounding.

@@ -2,9 +2,9 @@
 
 use super::adaptation::{Adaptation, Learning, regression};
 use super::feedforward::Feedforward;
-use super::first_step::{Start, asked};
 use super::form::{Fastest, Form, InertiaBounds, fastest, inertia_bounds, initial_level, total};
 use super::inertia::Inertia;
+use super::limits::Longest;
 use super::reach::{Course, Envelope};
 use super::region::{cells, outside, reach, start, width};
 use super::{Problem, family};
@@ -129,28 +129,8 @@ impl Parts<'_> {
             course.final_error(&inertia, over, &envelope, &delta_c)?
         };
 
-        if !facts.certified {
-            reasons.push("the bounds on D over the domain could not be certified: narrow the tube or the intervals of uncertainty".to_string());
-        }
-        if self.tuning.period >= period_max {
-            reasons.push(format!(
-                "the period of {} s is longer than the {period_max:.3e} s up to which the sampled loop is stable",
-                self.tuning.period
-            ));
-        }
-        if !longest.certified {
-            reasons.push(format!(
-                "the longest period of {period_max:.3e} s could not be certified over the domain: narrow the tube or the intervals of uncertainty"
-            ));
-        }
-        match self.feedforward {
-            Some(taken) => reasons.extend(taken.beyond_limits(arm, self.coulomb)),
-            None => reasons.push(
-                "without a motion nothing says how fast the torque changes that is held for a period"
-                    .to_string(),
-            ),
-        }
-        let (first_step, short) = self.first_step(&course, &delta_c, &delta_c1);
+        reasons.extend(self.period_reasons(facts.certified, &longest));
+        let (first_step, short) = self.drives(&course, &delta_c, &delta_c1);
         reasons.extend(short);
         let chatter = course.ball(&load, true) + course.parameter_energy();
         if control.law.is_robust() && self.layer().is_none() && chatter > envelope.level {
@@ -258,48 +238,11 @@ impl Parts<'_> {
         Longest { period: 2.0 / (rate + pull), certified }
     }
 
-    /// The largest share of a torque limit that the first step may ask of a joint, and what is said where that is too
-    /// much: of the arm as specified, what its model is off by, and the switching terms.
-    fn first_step(&self, course: &Course, delta_c: &[Vec<f64>], delta_c1: &[Vec<f64>]) -> (f64, Vec<String>) {
-        let Problem { arm, motion, bounds, control, .. } = *self.problem;
-        let Some(motion) = motion.filter(|_| arm.joints.iter().any(|joint| joint.limits.torque.is_some()))
-        else {
-            return (0.0, Vec::new());
-        };
-        let n = arm.dof();
-        let [position, velocity] = &self.initial;
-        let zero = vec![vec![0.0; n]; n];
-        let more = if self.has_matrix() { delta_c1 } else { &zero };
-        let start = Start { target: &motion.at(0.0), position, velocity };
-        let (rates, s) = course.rates(position, velocity);
-        let (model, load) = (bounds.torque(&rates), course.load(position, velocity, delta_c));
-        let switching = |i: usize| match self.layer() {
-            _ if !control.law.is_robust() => 0.0,
-            Some(phi) => load.gain[i] * (s[i] / phi[i]).min(1.0),
-            None => load.gain[i],
-        };
-        let friction = |i: usize| self.coulomb[i][0].max(-self.coulomb[i][1]);
-        let total = |(i, asked): (usize, f64)| asked + model[i] + switching(i) + friction(i);
-        let asked = asked(arm, self.gains, more, &start).into_iter().enumerate().map(total);
-        let mut share = 0.0_f64;
-        let mut reasons = Vec::new();
-        for (number, (asked, joint)) in (1..).zip(asked.zip(&arm.joints)) {
-            let Some(limit) = joint.limits.torque else { continue };
-            share = share.max(asked / limit);
-            if asked >= limit {
-                reasons.push(format!(
-                    "the initial errors may ask {asked:.4} of joint {number} in the first step, its torque limit is {limit}"
-                ));
-            }
-        }
-        (share, reasons)
-    }
-
-    fn layer(&self) -> Option<&[f64]> {
+    pub(super) fn layer(&self) -> Option<&[f64]> {
         self.tuning.boundary_layer.as_deref()
     }
 
-    fn has_matrix(&self) -> bool {
+    pub(super) fn has_matrix(&self) -> bool {
         let control = self.problem.control;
         control.law.has_bracket() && control.coriolis_term == crate::spec::CoriolisTermSpec::Matrix
     }
@@ -327,12 +270,6 @@ impl Parts<'_> {
         }
         Ok(None)
     }
-}
-
-/// The longest period, s, and whether nothing in the domain is faster than it supposes.
-struct Longest {
-    period: f64,
-    certified: bool,
 }
 
 /// What helps a law that holds no level of V.

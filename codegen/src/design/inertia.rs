@@ -3,20 +3,24 @@
 //! Over a box around c, D(q) = D(c) + Σ_k ∂_kD(c) δ_k + R with |R_ij| ≤ ½ Σ_kl max|∂_k∂_l d_ij| w_k w_l, and
 //! −diag(g) ≼ R ≼ diag(g) with g_i = Σ_j |R_ij| √(d_ii/d_jj): scaled so that light joints are not charged for heavy
 //! ones. A function that is convex in D and monotone takes its largest value over the affine part at a vertex of the
-//! box, with diag(g) added or subtracted; subdivision does the rest.
+//! box, with diag(g) added or subtracted; subdivision does the rest. R also holds what rounding does to D and to its
+//! slopes, by the recursion over norms. What is made of D⁻ and D⁺ must be a proof: see [`super::verified`].
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use crate::arm::{Arm, Uncertainty};
+use crate::bounds::{Bounds, recursion_rounding};
 use crate::dynamics::{coriolis, mass_matrix};
 use crate::lagrangian::{Entry, Function, Lagrangian};
 use crate::reduction::plus;
 
 /// A direction whose slope is below this fraction of D counts as remainder, which halves the vertices.
 const FLAT: f64 = 0.003;
-/// Rounding of D, its expansion and its eigenvalues, relative.
-const ROUNDING: f64 = 1e-9;
+/// Largest |κ_k κ_l| of a term in d_ij, whose degree in each joint is at most 2.
+const BENT: f64 = 4.0;
+/// Rounding of a sum of curvatures, relative.
+const SUMMED: f64 = 1e-9;
 
 /// A box of positions.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +50,8 @@ struct Member {
     arm: Arm,
     /// max|∂_k∂_l d_ij| at \[k n + l\]\[i n + j\].
     curvature: Vec<Vec<f64>>,
+    /// What rounding does to D and h.
+    rounding: Bounds,
 }
 
 struct Judged {
@@ -69,7 +75,11 @@ impl Member {
             let Some((twice, factor)) = once.derivative(l) else { return 0.0 };
             (first * factor).abs() * largest(&twice)
         };
-        let mut curvature = vec![vec![0.0; n * n]; n * n];
+        // What the expansion has dropped bends D, too.
+        let largest_monomial = reach.iter().fold(1.0, |p: f64, &q| p * (q * q).max(1.0));
+        let varied = u.iter().zip(&lagrangian.variation_truncation).map(|(u, t)| u.abs() * t);
+        let dropped = BENT * largest_monomial * (lagrangian.truncation + varied.sum::<f64>());
+        let mut curvature = vec![vec![dropped; n * n]; n * n];
         for coefficient in &lagrangian.coefficients {
             let varied = u.iter().zip(&coefficient.variations);
             let terms = varied.fold(coefficient.terms.clone(), |sum, (&u, v)| plus(&sum, u, v));
@@ -79,13 +89,14 @@ impl Member {
                     let bend = |(psi, value): &(usize, f64)| {
                         value.abs() * second(&lagrangian.functions[*psi], index / n, index % n)
                     };
-                    let sum: f64 = terms.iter().map(bend).sum();
+                    let sum = dropped + terms.iter().map(bend).sum::<f64>() * (1.0 + SUMMED);
                     entries[i * n + j] = sum;
                     entries[j * n + i] = sum;
                 }
             }
         }
-        Self { arm, curvature }
+        let rounding = recursion_rounding(&arm, reach);
+        Self { arm, curvature, rounding }
     }
 }
 
@@ -130,8 +141,7 @@ impl Inertia {
             let room = budget.saturating_sub(spent);
             if open.is_empty() || room == 0 {
                 judged = open.into_iter().chain(closed).collect();
-                let widen = |bound: Vec<f64>| bound.iter().map(|b| b * (1.0 + ROUNDING)).collect();
-                return Extremes { bound: widen(fold(&judged, |j| &j.bound)), seen };
+                return Extremes { bound: fold(&judged, |j| &j.bound), seen };
             }
             // Stable, so that the order never depends on threads; the worst first, where the budget runs short.
             open.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
@@ -160,12 +170,12 @@ impl Inertia {
         cell: Cell,
         f: &impl Fn(&DMatrix<f64>, &DMatrix<f64>) -> Vec<f64>,
     ) -> Judged {
-        let Member { arm, curvature } = &self.members[member];
+        let Member { arm, curvature, rounding } = &self.members[member];
         let n = arm.dof();
         let rows = mass_matrix(arm, &cell.centre);
         let centre = DMatrix::from_fn(n, n, |i, j| 0.5 * (rows[i][j] + rows[j][i]));
         let scale = |i: usize, j: usize| libm::sqrt(centre[(i, i)] * centre[(j, j)]);
-        let mut rest = DMatrix::from_fn(n, n, |i, j| ROUNDING * scale(i, j));
+        let mut rest = DMatrix::from_fn(n, n, |i, j| rounding.d[i][j].max(rounding.d[j][i]));
         let mut slopes = Vec::new();
         let (mut split, mut most) = (0, -1.0);
         for k in 0..n {
@@ -188,6 +198,7 @@ impl Inertia {
                 (split, most) = (k, steep + bent);
             }
             rest += bend;
+            rest += DMatrix::from_fn(n, n, |i, j| cell.half[k] * (rounding.h[i][j][k] + rounding.h[j][i][k]));
             if steep > FLAT {
                 slopes.push(slope);
             } else {

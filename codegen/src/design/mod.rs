@@ -8,6 +8,7 @@ mod form;
 mod gains;
 mod guarantee;
 mod inertia;
+mod limits;
 mod linalg;
 mod reach;
 mod region;

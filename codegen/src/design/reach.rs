@@ -81,14 +81,23 @@ impl Course<'_> {
 
     /// The largest rates that multiply the model while the errors stay below these, and the largest |s|.
     pub(super) fn rates(&self, position: &[f64], velocity: &[f64]) -> (Rates, Vec<f64>) {
+        self.rates_about(&self.speed, &self.acceleration, position, velocity)
+    }
+
+    /// The same where |q̇_d| ≤ `speed` and |q̈_d| ≤ `acceleration`.
+    pub(super) fn rates_about(
+        &self,
+        speed: &[f64],
+        acceleration: &[f64],
+        position: &[f64],
+        velocity: &[f64],
+    ) -> (Rates, Vec<f64>) {
         let n = position.len();
         let p12 = &self.gains.p12;
         let rates = Rates {
-            speed: self.speed.iter().zip(velocity).map(|(d, e)| d + e).collect(),
-            reference_speed: (0..n).map(|i| self.speed[i] + weighed(&p12[i], position)).collect(),
-            reference_acceleration: (0..n)
-                .map(|i| self.acceleration[i] + weighed(&p12[i], velocity))
-                .collect(),
+            speed: speed.iter().zip(velocity).map(|(d, e)| d + e).collect(),
+            reference_speed: (0..n).map(|i| speed[i] + weighed(&p12[i], position)).collect(),
+            reference_acceleration: (0..n).map(|i| acceleration[i] + weighed(&p12[i], velocity)).collect(),
         };
         (rates, (0..n).map(|i| velocity[i] + weighed(&p12[i], position)).collect())
     }
@@ -97,18 +106,7 @@ impl Course<'_> {
     pub(super) fn load(&self, position: &[f64], velocity: &[f64], delta_c: &[Vec<f64>]) -> Load {
         let n = position.len();
         let (rates, s) = self.rates(position, velocity);
-        let Rates { speed, reference_speed: v_r, reference_acceleration: a_r } = &rates;
-        let coriolis = |i: usize| match self.term {
-            CoriolisTermSpec::Matrix if self.law.has_bracket() => weighed(&delta_c[i], speed),
-            CoriolisTermSpec::Switching if self.law.has_bracket() => {
-                weighed(&delta_c[i], speed) + weighed(&delta_c[i], &s)
-            }
-            _ => (0..n).map(|j| weighed(&self.bounds.h[i][j], speed) * v_r[j]).sum(),
-        };
-        let friction = |i: usize| self.bounds.b[i] * speed[i] + self.disturbance[i];
-        let gain = (0..n)
-            .map(|i| weighed(&self.bounds.d[i], a_r) + coriolis(i) + self.bounds.g[i] + friction(i))
-            .collect();
+        let gain = self.robust_gain(&rates, &s, delta_c);
         let learning = self.learning.as_ref();
         Load {
             gain,
@@ -116,6 +114,23 @@ impl Course<'_> {
             step: learning
                 .map_or(0.0, |learning| learning.step(&rates, |i, j| self.form.inverse[(i, j)], self.period)),
         }
+    }
+
+    /// The largest switching gain ρ by joint, N·m or N, for rates up to `rates` and |s| up to `s`.
+    pub(super) fn robust_gain(&self, rates: &Rates, s: &[f64], delta_c: &[Vec<f64>]) -> Vec<f64> {
+        let n = s.len();
+        let Rates { speed, reference_speed: v_r, reference_acceleration: a_r } = rates;
+        let coriolis = |i: usize| match self.term {
+            CoriolisTermSpec::Matrix if self.law.has_bracket() => weighed(&delta_c[i], speed),
+            CoriolisTermSpec::Switching if self.law.has_bracket() => {
+                weighed(&delta_c[i], speed) + weighed(&delta_c[i], s)
+            }
+            _ => (0..n).map(|j| weighed(&self.bounds.h[i][j], speed) * v_r[j]).sum(),
+        };
+        let friction = |i: usize| self.bounds.b[i] * speed[i] + self.disturbance[i];
+        (0..n)
+            .map(|i| weighed(&self.bounds.d[i], a_r) + coriolis(i) + self.bounds.g[i] + friction(i))
+            .collect()
     }
 
     /// The level of V above which V̇ < 0 (for a law that learns V̇1 < 0), J.

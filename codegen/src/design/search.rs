@@ -111,15 +111,19 @@ impl<'a> Scene<'a> {
     /// `None` where none are fast enough. In haste the search ends where it begins far off.
     pub(super) fn find_each(&self, period: f64, hasty: bool) -> Result<Option<Candidate>, Error> {
         let Some((mix, firmest)) = self.firmest(period, hasty)? else { return Ok(None) };
-        if !firmest.holds {
-            return self.softer(period, mix, firmest).map(Some);
-        }
+        let (most, firmest) = match firmest.holds {
+            true => (1.0, firmest),
+            false => match self.softer(period, mix, &firmest)? {
+                Some(softer) => softer,
+                None => return Ok(Some(firmest)),
+            },
+        };
         // Each in the middle between the softest gains that hold and the firmest that the period bears.
         let rho = firmest.judged.gain.clone();
         let holds = |gain: f64, mix: Mix| self.candidate(period, gain, mix, &rho, f64::INFINITY);
-        let gain = middle(SOFTEST, 1.0, |gain| Ok(holds(gain, mix)?.is_some_and(|c| c.holds)))?;
+        let gain = middle(SOFTEST, most, |gain| Ok(holds(gain, mix)?.is_some_and(|c| c.holds)))?;
         let chosen = holds(gain, mix)?.filter(|candidate| candidate.holds);
-        let (gain, chosen) = chosen.map_or((1.0, firmest), |chosen| (gain, chosen));
+        let (gain, chosen) = chosen.map_or((most, firmest), |chosen| (gain, chosen));
         let (w, pqq, omega) = (&chosen.tuning.w, &chosen.tuning.pqq, &chosen.tuning.omega);
         let rate = |i: usize| (w[i][i] + pqq[i][i] * pqq[i][i] / omega[i][i]) / self.heaviest[i];
         let most = (0..w.len()).map(rate).fold(0.0, f64::max);
@@ -128,18 +132,20 @@ impl<'a> Scene<'a> {
         Ok(Some(capped(cap)?.filter(|candidate| candidate.holds).unwrap_or(chosen)))
     }
 
-    /// Less gain, where it is the first step's torque that the most gain fails by; `firmest` where that does not help.
-    fn softer(&self, period: f64, mix: Mix, firmest: Candidate) -> Result<Candidate, Error> {
-        let rho = firmest.judged.gain.clone();
+    /// The most gain for which the drives bear the first step, where it is this alone that `firmest` fails by; `None` where
+    /// it is not, or less gain does not help.
+    fn softer(&self, period: f64, mix: Mix, firmest: &Candidate) -> Result<Option<(f64, Candidate)>, Error> {
         let mut gain = SOFTER;
-        while firmest.judged.first_step >= 1.0 && gain > SOFTEST {
-            let candidate = self.candidate(period, gain, mix, &rho, f64::INFINITY)?;
-            if let Some(candidate) = candidate.filter(|candidate| candidate.holds) {
-                return Ok(candidate);
+        while firmest.score <= 1.0 && firmest.judged.first_step >= 1.0 && gain > SOFTEST {
+            let candidate = self.candidate(period, gain, mix, &firmest.judged.gain, f64::INFINITY)?;
+            match candidate {
+                Some(candidate) if candidate.holds => return Ok(Some((gain, candidate))),
+                // Too soft by now.
+                Some(candidate) if candidate.score > 1.0 => break,
+                _ => gain *= SOFTER,
             }
-            gain *= SOFTER;
         }
-        Ok(firmest)
+        Ok(None)
     }
 
     /// The best mix of the most gain that the period bears.
@@ -221,7 +227,7 @@ impl<'a> Scene<'a> {
         let reach = if judged.settled { errors.map(share).fold(0.0, f64::max) } else { f64::INFINITY };
         let pace = tuning.period / judged.guarantee.period_max / USED;
         let holds = judged.guarantee.holds && reach <= 1.0 && pace <= 1.0;
-        Candidate { tuning, score: reach.max(pace).max(judged.first_step), reach, holds, judged }
+        Candidate { tuning, score: reach.max(pace), reach, holds, judged }
     }
 
     /// Gains with the smallest P12 = λI that is fast enough; `None` where there is none.

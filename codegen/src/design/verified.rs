@@ -39,12 +39,19 @@ pub(super) fn inverse_diagonal(a: &DMatrix<f64>, guesses: &[f64]) -> Vec<f64> {
 
 /// A bound on λ_max(A) of A ≽ 0 from above; infinite where none is proved.
 pub(super) fn largest_eigenvalue(a: &DMatrix<f64>) -> f64 {
+    // The iteration need not end on NaN.
+    if !a.iter().all(|entry| entry.is_finite()) {
+        return f64::INFINITY;
+    }
     let guess = a.clone().symmetric_eigenvalues().max();
     largest_ratio(&DMatrix::identity(a.nrows(), a.nrows()), a, guess)
 }
 
 /// A bound on λ_min(A) from below; 0 where nothing better is proved.
 pub(super) fn least_eigenvalue(a: &DMatrix<f64>) -> f64 {
+    if !a.iter().all(|entry| entry.is_finite()) {
+        return 0.0;
+    }
     let guess = a.clone().symmetric_eigenvalues().min();
     let unit = DMatrix::identity(a.nrows(), a.nrows());
     if guess > 0.0 { (1.0 / largest_ratio(a, &unit, 1.0 / guess)).next_down().max(0.0) } else { 0.0 }
@@ -103,7 +110,7 @@ fn dominates(mu: f64, a: &DMatrix<f64>, b: &DMatrix<f64>) -> bool {
     let factor = 4.0 * n as f64 * (n as f64 + 2.0) * U;
     for i in 0..n {
         let entries: f64 = (0..n).map(|j| size(i, j) * scale[i] / scale[j]).sum();
-        m[(i, i)] -= 4.0 * U * entries + factor * size(i, i);
+        m[(i, i)] -= 8.0 * U * entries + factor * size(i, i);
     }
     factorises(m)
 }

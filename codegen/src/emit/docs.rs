@@ -1,7 +1,7 @@
 //! Words in a module: the header and the model's documentation.
 
 use super::Module;
-use crate::bounds::{Torque, printed_down, printed_up};
+use crate::bounds::{Met, Torque, printed_down, printed_up};
 use crate::design::Guarantee;
 use crate::lagrangian::{Coordinates, Lagrangian};
 use crate::measure::Domain;
@@ -74,7 +74,8 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     });
     lines.push(String::new());
     if let Some(known) = module.torque {
-        lines.extend([format!(" {}", torque(known)), String::new()]);
+        lines.extend([format!(" {} {}", torque(known), rates(known)), String::new()]);
+        lines.extend([format!(" {}", met(module.met, module.design.is_some())), String::new()]);
     }
     if !module.reduced.is_exact() {
         lines.push(format!(
@@ -211,11 +212,47 @@ pub(crate) fn functions(lagrangian: &Lagrangian, reduced: &Reduced) -> Vec<Strin
     }
 }
 
+/// Numbers by joint, with digits rounded up.
+fn list(x: &[f64]) -> String {
+    x.iter().map(|&e| printed_up(e)).collect::<Vec<_>>().join(", ")
+}
+
+/// The rates for which the torque error holds.
+pub(crate) fn rates(torque: &Torque) -> String {
+    format!(
+        "It holds for speeds up to ({}) and accelerations up to ({}). The peak torque is the largest that a search found \
+         within them, so the true one is no smaller.",
+        list(&torque.rates.speed),
+        list(&torque.rates.reference_acceleration)
+    )
+}
+
+/// The torque error that the law meets, or why there is none.
+pub(crate) fn met(met: Option<&Met>, controlled: bool) -> String {
+    match met {
+        Some(Met { rates, error }) => format!(
+            "Torque error that the law meets by joint, its feedback included: at most ({}) inside the domain, for speeds up to \
+             ({}), reference speeds up to ({}) and reference accelerations up to ({}).",
+            list(error),
+            list(&rates.speed),
+            list(&rates.reference_speed),
+            list(&rates.reference_acceleration)
+        ),
+        None if controlled => {
+            "Torque error that the law meets, its feedback included: not available, for nothing holds the \
+             errors."
+                .to_string()
+        }
+        None => "Torque error that a law meets, its feedback included: not available without a controller."
+            .to_string(),
+    }
+}
+
 /// The certified torque error in one sentence; its digits are rounded up.
 pub(crate) fn torque(torque: &Torque) -> String {
     format!(
         "Certified torque error by joint: at most ({}) of a peak torque of ({}), that is {} % in the worst joint.",
-        torque.error.iter().map(|&e| printed_up(e)).collect::<Vec<_>>().join(", "),
+        list(&torque.error),
         torque.peak.iter().map(|&p| printed_down(p)).collect::<Vec<_>>().join(", "),
         printed_up(100.0 * torque.fraction())
     )

@@ -8,14 +8,17 @@ mod regression;
 mod sines;
 mod statements;
 
-pub(crate) use docs::{domain as domain_in_words, functions, torque as torque_in_words};
+pub(crate) use docs::{
+    domain as domain_in_words, functions, met as met_in_words, rates as rates_in_words,
+    torque as torque_in_words,
+};
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
 use crate::arm::{Arm, Uncertainty};
 use crate::body::{Form, Regressor};
-use crate::bounds::{Bounds, Torque};
+use crate::bounds::{Bounds, Met, Torque};
 use crate::design::Design;
 use crate::error::Error;
 use crate::graph::Graph;
@@ -45,6 +48,8 @@ pub struct Module<'a> {
     pub bounds: &'a Bounds,
     /// What that costs in torque, where the rates are known.
     pub torque: Option<&'a Torque>,
+    /// The same at the rates that the law meets.
+    pub met: Option<&'a Met>,
     /// Whether reducing pays, in one sentence.
     pub verdict: &'a str,
     /// Where the bounds hold.

@@ -1,5 +1,7 @@
 //! What a motion cannot exceed within an interval of time, from its closed form.
 
+use gramforge_runtime::reference::Sinusoid;
+
 use super::Motion;
 
 /// Roundings of the few operations below, relative and with room to spare.
@@ -31,7 +33,9 @@ impl Motion {
             }
             Self::Spline(spline) => {
                 // Each piece by its own coefficients: neighbours agree at their knot only to rounding.
-                for (piece, ends) in spline.pieces.iter().zip(spline.times.windows(2)) {
+                let first = spline.times.partition_point(|&knot| knot < t0).saturating_sub(1);
+                let pieces = spline.pieces.iter().zip(spline.times.windows(2)).skip(first);
+                for (piece, ends) in pieces.take_while(|(_, ends)| ends[0] <= t1) {
                     let (from, to) = (t0.max(ends[0]) - ends[0], t1.min(ends[1]) - ends[0]);
                     if from <= to {
                         for (most, [_, _, c2, c3]) in most.iter_mut().zip(piece) {
@@ -43,16 +47,9 @@ impl Motion {
             }
             Self::Sinusoids { terms, .. } => {
                 let half = 0.5 * (t1 - t0);
-                let power = |j: usize, exponent: i32| -> f64 {
-                    let size = |s: &gramforge_runtime::reference::Sinusoid<f64>| {
-                        let square = s.frequency * s.frequency;
-                        s.amplitude.abs() * if exponent == 2 { square } else { square * s.frequency.abs() }
-                    };
-                    terms[j].iter().map(size).sum()
-                };
                 visit(&mut most, 0.5 * (t0 + t1));
-                for (j, most) in most.iter_mut().enumerate() {
-                    *most = (*most + half * power(j, 3)).min(power(j, 2));
+                for (most, terms) in most.iter_mut().zip(terms) {
+                    *most = (*most + half * size(terms, 3)).min(size(terms, 2));
                 }
             }
         }
@@ -77,8 +74,20 @@ impl Motion {
                 out.acceleration[j] = out.acceleration[j].max(most);
             }
         }
+        if let Self::Sinusoids { offset, terms, .. } = self {
+            // Where an interval holds much of a period, the amplitudes say more.
+            for (j, terms) in terms.iter().enumerate() {
+                out.position[j] = out.position[j].min((offset[j].abs() + size(terms, 0)) * ROUNDING);
+                out.speed[j] = out.speed[j].min(size(terms, 1) * ROUNDING);
+            }
+        }
         out
     }
+}
+
+/// Σ |a| |ω|^k.
+fn size(terms: &[Sinusoid<f64>], k: u32) -> f64 {
+    terms.iter().map(|s| (0..k).fold(s.amplitude.abs(), |size, _| size * s.frequency.abs())).sum()
 }
 
 /// Bounds over a whole motion, by joint.
@@ -94,8 +103,6 @@ pub struct Reach {
 
 #[cfg(test)]
 mod tests {
-    use gramforge_runtime::reference::Sinusoid;
-
     use super::*;
     use crate::motion::Spline;
 

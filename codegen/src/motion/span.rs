@@ -64,7 +64,19 @@ impl Motion {
         inner.min_by(|a, b| (a - middle).abs().total_cmp(&(b - middle).abs())).unwrap_or(middle)
     }
 
-    fn joint_span(&self, joint: usize, t0: f64, t1: f64) -> [Interval; 4] {
+    /// Pieces of the whole motion to begin with: `count` equal ones, or those of a spline.
+    pub(super) fn pieces(&self, count: u32) -> Vec<[f64; 2]> {
+        match self {
+            Self::Spline(spline) => spline.times.windows(2).map(|ends| [ends[0], ends[1]]).collect(),
+            _ => {
+                let at = |k: u32| self.duration() * f64::from(k) / f64::from(count);
+                (0..count).map(|k| [at(k), at(k + 1)]).collect()
+            }
+        }
+    }
+
+    /// Ranges of q_d, q̇_d, q̈_d and the jerk of one joint.
+    pub(super) fn joint_span(&self, joint: usize, t0: f64, t1: f64) -> [Interval; 4] {
         // A hair more than half, so that rounded ends still meet.
         let half = |t0: f64, t1: f64| {
             if t1 > t0 { 0.5 * (t1 - t0) * (1.0 + ROUNDING) + 4.0 * f64::EPSILON * t1.abs() } else { 0.0 }

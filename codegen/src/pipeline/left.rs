@@ -3,7 +3,7 @@
 use crate::arm::{Arm, Uncertainty};
 use crate::body::Form;
 use crate::bounds::{
-    Bounds, Certificate, Effort, Rates, Torque, certified_telling, printed_up, published, reach, recursion,
+    Bounds, Certificate, Effort, Met, Rates, Torque, certified_telling, printed_up, published, reach, recursion,
     recursion_rounding, torque_error, with_sines,
 };
 use crate::lagrangian::Lagrangian;
@@ -13,9 +13,10 @@ use crate::motion::Motion;
 use crate::progress::Progress;
 use crate::reduction::Reduced;
 use crate::sines::Sines;
+use crate::spec::Spec;
 use crate::tolerance::Scale;
 
-/// Where the torque error is what counts, no single coefficient is worth more boxes and more starts of a search.
+/// Where the torque error alone is what counts, no single coefficient is worth more boxes and more starts of a search.
 const BOXES: usize = 2000;
 const STARTS: usize = 4;
 
@@ -38,11 +39,14 @@ impl Left<'_> {
     /// A certificate for each coefficient, and the bounds that follow.
     pub fn bounds(&self, effort: &Effort, progress: &dyn Progress) -> (Vec<Certificate>, Bounds) {
         let Self { lagrangian, reduced, domain, motion, sines, .. } = *self;
-        let effort = match self.loaded.spec.model.tolerance() {
-            Some(_) => {
+        let Spec { model, control, .. } = &self.loaded.spec;
+        // A switching gain is made of the bounds themselves.
+        let switches = control.as_ref().is_some_and(|control| control.law.is_robust());
+        let effort = match model.tolerance() {
+            Some(_) if !switches => {
                 Effort { boxes: effort.boxes.min(BOXES), starts: effort.starts.min(STARTS), ..*effort }
             }
-            None => *effort,
+            _ => *effort,
         };
         let certificates = certified_telling(lagrangian, reduced, domain, motion, &effort, progress);
         let (mut certificates, bounds) = if self.form == Form::Recursive && !sines.rounds() {
@@ -79,29 +83,43 @@ impl Left<'_> {
 
     /// What that costs in torque, rounding in f64 and of the arm's rotations included.
     pub fn torque(&self, certificates: &[Certificate], bounds: &Bounds, scale: Scale) -> Torque {
+        let known = self.uncertainty.parameters.is_empty();
+        let fraction = self.loaded.spec.model.tolerance().filter(|_| known);
+        let proved = fraction.map(|fraction| scale.limits(fraction));
+        let error = self.error(certificates, bounds, &scale.rates, proved);
+        debug_assert_eq!(scale.reserve.len(), scale.peak.len());
+        Torque { error, peak: scale.peak, rates: scale.rates }
+    }
+
+    /// The same at the rates that a law meets.
+    pub fn met(&self, certificates: &[Certificate], bounds: &Bounds, rates: &Rates) -> Met {
+        Met { error: self.error(certificates, bounds, rates, None), rates: rates.clone() }
+    }
+
+    /// Bounds by joint, N·m or N, for rates up to `rates`; what the choice of a model has `proved`, perhaps with more work,
+    /// is for sines within an ulp.
+    fn error(
+        &self,
+        certificates: &[Certificate],
+        bounds: &Bounds,
+        rates: &Rates,
+        proved: Option<Vec<f64>>,
+    ) -> Vec<f64> {
         let Self { lagrangian, reduced, domain, motion, .. } = *self;
-        let Scale { rates, peak, reserve } = &scale;
-        let own = if self.form == Form::Recursive && reduced.is_exact() {
+        let own: Vec<f64> = if self.form == Form::Recursive && reduced.is_exact() {
             bounds.torque(rates)
         } else {
             let mut error = torque_error(lagrangian, reduced, domain, motion, certificates, rates);
-            if let (Some(fraction), true) =
-                (self.loaded.spec.model.tolerance(), self.uncertainty.parameters.is_empty())
-            {
-                // The choice has proved as much, perhaps with more work, for sines within an ulp.
-                for (i, (error, limit)) in error.iter_mut().zip(scale.limits(fraction)).enumerate() {
-                    let multipliers = rates.multipliers(lagrangian, i);
-                    let sines: f64 = certificates.iter().zip(&multipliers).map(|(c, u)| c.sines * u).sum();
-                    *error = error.min((limit.max(0.0) + sines).next_up());
-                }
+            for (i, (error, limit)) in error.iter_mut().zip(proved.into_iter().flatten()).enumerate() {
+                let multipliers = rates.multipliers(lagrangian, i);
+                let sines: f64 = certificates.iter().zip(&multipliers).map(|(c, u)| c.sines * u).sum();
+                *error = error.min((limit.max(0.0) + sines).next_up());
             }
             let angles = self.angles.map_or_else(|| vec![0.0; error.len()], |angles| angles.torque(rates));
             error.iter().zip(angles).map(|(error, angles)| error + angles).collect()
         };
         let rounding = self.rounding(rates);
-        let error = own.iter().zip(rounding).map(|(own, rounding)| (own + rounding).next_up()).collect();
-        debug_assert_eq!(reserve.len(), peak.len());
-        Torque { error, peak: scale.peak }
+        own.iter().zip(rounding).map(|(own, rounding)| (own + rounding).next_up()).collect()
     }
 
     /// Rounding in f64 of what is not simplified, by joint, N·m or N; that of the rest is in its certificates.

@@ -2,7 +2,7 @@
 
 use super::{ControlView, GuaranteeView, Inspection};
 use crate::bounds::{printed_down, printed_up};
-use crate::emit::{domain_in_words, torque_in_words};
+use crate::emit::{domain_in_words, met_in_words, rates_in_words, torque_in_words};
 use crate::graph::Operations;
 use crate::pipeline::Generation;
 use crate::spec::MatrixSpec;
@@ -40,6 +40,8 @@ pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
     }
     if let Some(torque) = generation.torque.as_ref() {
         lines.push(torque_in_words(torque));
+        lines.push(rates_in_words(torque));
+        lines.push(met_in_words(generation.met.as_ref(), generation.design.is_some()));
     }
     for p in &view.uncertainty {
         lines.push(format!("uncertain: {} in [{}, {}], here {}", p.name, p.low, p.high, p.nominal));

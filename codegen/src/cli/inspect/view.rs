@@ -2,9 +2,9 @@
 
 use super::{
     AdaptationView, BoundsView, ControlView, Costs, DomainView, EstimateView, GuaranteeView, Inspection,
-    RangeView,
+    RangeView, RatesView,
 };
-use crate::bounds::{Bounds, Effort, estimate, factor_bounds};
+use crate::bounds::{Bounds, Effort, Rates, estimate, factor_bounds, worst_ratio};
 use crate::design::Envelope;
 use crate::emit::functions;
 use crate::measure::Domain;
@@ -69,12 +69,15 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
             G: &bounds.g,
             B: diagonal(&bounds.b),
             C: design.as_ref().map(|design| design.delta_c.as_slice()),
-            worst_ratio: generation.certificates.iter().map(|c| c.ratio()).fold(1.0, f64::max),
+            worst_ratio: worst_ratio(lagrangian, &generation.certificates),
             estimate: estimated(generation),
             factor: by_factor(generation),
         },
         torque_error: generation.torque.as_ref().map(|torque| torque.error.clone()),
         peak_torque: generation.torque.as_ref().map(|torque| torque.peak.clone()),
+        torque_rates: generation.torque.as_ref().map(|torque| rates(&torque.rates)),
+        torque_error_of_law: generation.met.as_ref().map(|met| met.error.as_slice()),
+        law_rates: generation.met.as_ref().map(|met| rates(&met.rates)),
         domain: domain_view(&generation.domain),
         form: generation.form.name(),
         verdict: generation.verdict(),
@@ -84,6 +87,11 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
         guarantee,
         warnings: &generation.warnings,
     }
+}
+
+fn rates(rates: &Rates) -> RatesView<'_> {
+    let Rates { speed, reference_speed, reference_acceleration } = rates;
+    RatesView { speed, reference_speed, reference_acceleration }
 }
 
 fn adaptation(generation: &Generation) -> Option<AdaptationView<'_>> {
