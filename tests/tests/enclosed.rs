@@ -167,3 +167,20 @@ fn the_rates_of_the_torque_error_are_stated_and_those_that_the_law_meets() {
     let alone = generate(PUMA, |v| drop(v.as_object_mut().unwrap().remove("control"))).unwrap();
     assert!(alone.met.is_none() && alone.module().unwrap().contains("not available without a controller"));
 }
+
+/// A switching gain is made of the bounds, so these are as sharp as those of a shared model.
+#[test]
+fn the_bounds_of_a_switching_law_are_sharp_whatever_the_model() {
+    const PUMA3: &str = include_str!("../data/puma3_tolerance.json");
+    let generation = generate(PUMA3, |v| {
+        v["control"] = json!({
+            "law": "tight", "period": 0.001, "W": 40.0, "Pqq": 4.0, "Omega": 40.0, "boundary_layer": 0.05,
+            "initial_error": { "position": 0.01 }, "allow_long_period": true
+        });
+    })
+    .unwrap();
+    assert!(!generation.reduced.is_exact());
+    let ratio = gramforge::bounds::worst_ratio(&generation.lagrangian, &generation.certificates);
+    println!("bound over largest value found: {ratio:.4}");
+    assert!((1.0..=1.0101).contains(&ratio));
+}

@@ -217,6 +217,10 @@ fn the_tube_that_is_said_to_be_enough_is_enough() {
 fn the_guarantee_of_the_puma_ends_at_the_published_initial_error() {
     let with = |error: f64| {
         let edit = |v: &mut Value| {
+            // The motors do not bear what these gains ask of them in the first step: this is about the tube.
+            for link in v["arm"]["dh"]["links"].as_array_mut().unwrap() {
+                link["limits"].as_object_mut().unwrap().remove("torque");
+            }
             v["control"] = json!({
                 "law": "tight", "period": 0.0005, "W": [800, 900, 220, 35, 30, 35], "Pqq": 150.0, "Omega": 900.0,
                 "boundary_layer": [0.024, 0.01, 0.021, 0.018, 0.017, 0.011],

@@ -113,3 +113,62 @@ fn largest(arm: &Arm, q: &[f64], rates: &Rates) -> Vec<f64> {
     }
     peak
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::check::prepare;
+
+    /// Another search: random positions, and from the best of them random steps that shrink.
+    fn other(arm: &Arm, limits: &[[f64; 2]], rates: &Rates, i: usize) -> f64 {
+        let n = arm.dof();
+        let spread = Spread::new(2 * n);
+        let value = |unit: &[f64]| largest(arm, &in_box(limits, unit), rates)[i];
+        let mut seen: Vec<(Vec<f64>, f64)> = (0..1500)
+            .map(|index| {
+                let unit = spread.point(7 * index + 3)[n..].to_vec();
+                let height = value(&unit);
+                (unit, height)
+            })
+            .collect();
+        seen.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let climb = |(mut at, mut peak): (Vec<f64>, f64)| {
+            let mut step = 0.3;
+            for index in 0..250 {
+                let u = spread.point(11 * index);
+                let next: Vec<f64> =
+                    at.iter().zip(&u).map(|(x, u)| (x + step * (2.0 * u - 1.0)).clamp(0.0, 1.0)).collect();
+                let there = value(&next);
+                if there > peak {
+                    (at, peak) = (next, there);
+                }
+                step *= 0.98;
+            }
+            peak
+        };
+        seen.into_iter().take(8).map(climb).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn another_search_finds_no_more() {
+        for name in ["puma3", "stanford"] {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../tests/data/{name}.json"));
+            let arm = prepare(&path).expect("a sound specification").built.arm;
+            let n = arm.dof();
+            let rates = Rates {
+                speed: vec![2.0; n],
+                reference_speed: vec![2.0; n],
+                reference_acceleration: vec![5.0; n],
+            };
+            let limits = arm.joint_box();
+            let peaks = workspace_peak_torque(&arm, &limits, &rates);
+            for i in 0..n.min(4) {
+                let found = other(&arm, &limits, &rates, i);
+                println!("{name}, joint {}: {:.6}, another search {found:.6}", i + 1, peaks[i]);
+                assert!(peaks[i] >= 0.995 * found, "{name}, joint {}", i + 1);
+            }
+        }
+    }
+}
