@@ -51,7 +51,7 @@ fn a_rhythm_that_samples_miss_still_lags() {
             |i: usize| run.trace.position_error[late..].iter().fold(0.0_f64, |m, e| m.max(e[i].abs()));
         let seen: Vec<f64> = (0..3).map(error).collect();
         println!(
-            "{hertz} Hz, {duration} s: {seen:.3e?} seen, {:.3e?} published, guaranteed: {}",
+            "{hertz} Hz, {duration} s: {seen:.6?} seen, {:.6?} published, guaranteed: {}",
             guarantee.final_error, guarantee.holds
         );
         assert!(seen.iter().any(|e| *e > 5e-5), "the held torque lags: {seen:?}");
@@ -68,7 +68,7 @@ fn a_longer_rhythm_lags_no_less() {
         generation.design.unwrap().guarantee.final_error
     };
     let (short, long) = (last(1.0), last(200.0));
-    println!("{short:.4e?} {long:.4e?}");
+    println!("{short:.6?} {long:.6?}");
     assert!(short.iter().zip(&long).all(|(s, l)| *l >= 0.97 * s && *l <= 1.25 * s));
 }
 

@@ -24,8 +24,8 @@ const STEPS: i32 = 50;
 /// Halvings of the interval of exponents in which the smallest gain lies, and its lower end.
 const HALVINGS: u32 = 6;
 const SOFTEST: f64 = 1.0 / 256.0;
-/// Ratio from one gain to the next, where a softer one is sought for the sake of a torque limit.
-const SOFTER: f64 = 0.7;
+/// Least and largest ratio from one gain to the next, where a softer one is sought for the sake of a torque limit.
+const SOFTER: [f64; 2] = [0.2, 0.8];
 
 /// Errors relative to the room from which a hasty search does not go on.
 const FAR: f64 = 2.0;
@@ -135,14 +135,17 @@ impl<'a> Scene<'a> {
     /// The most gain for which the drives bear the first step, where it is this alone that `firmest` fails by; `None` where
     /// it is not, or less gain does not help.
     fn softer(&self, period: f64, mix: Mix, firmest: &Candidate) -> Result<Option<(f64, Candidate)>, Error> {
-        let mut gain = SOFTER;
+        // What the first step asks grows about as the gain does.
+        let down = |asked: f64| (1.0 / asked).clamp(SOFTER[0], SOFTER[1]);
+        let mut gain = down(firmest.judged.first_step);
         while firmest.score <= 1.0 && firmest.judged.first_step >= 1.0 && gain > SOFTEST {
             let candidate = self.candidate(period, gain, mix, &firmest.judged.gain, f64::INFINITY)?;
             match candidate {
                 Some(candidate) if candidate.holds => return Ok(Some((gain, candidate))),
                 // Too soft by now.
                 Some(candidate) if candidate.score > 1.0 => break,
-                _ => gain *= SOFTER,
+                Some(candidate) => gain *= down(candidate.judged.first_step),
+                None => break,
             }
         }
         Ok(None)

@@ -2,6 +2,7 @@
 
 use super::inertia::{Cell, Inertia};
 use super::*;
+use crate::arm::Body;
 use crate::dynamics::mass_matrix;
 use crate::lagrangian::expand;
 use crate::simulate::example::three_link;
@@ -74,5 +75,33 @@ fn bounds_on_d_hold_and_are_near() {
         for (bound, seen) in extremes.bound.iter().zip(seen) {
             assert!(*bound >= seen && *bound < 1.2 * seen, "{bound} against {seen}");
         }
+    }
+}
+
+/// Two parallel axes that carry nothing but a point at the far end: stretched out, it cannot be pushed along the arm.
+#[test]
+fn what_cannot_be_certified_is_said_to_be_so() {
+    let mut arm = three_link();
+    arm.joints.remove(0);
+    for joint in &mut arm.joints {
+        (joint.body, joint.armature) = (Body::default(), 0.0);
+    }
+    let out = arm.joints[1].pose.translation;
+    let length = libm::sqrt(out.iter().map(|x| x * x).sum());
+    arm.joints[1].body = Body::from_com(1.0, out.map(|x| 1.2 * x / length), [[0.0; 3]; 3]);
+    let inertia = Inertia::new(&arm, &expand(&arm), &[0.0; 2]);
+    let damping = family::multiple_of_identity(10.0, 2);
+    let over = |centre: f64, half: f64| {
+        let cells = vec![Cell { centre: vec![0.0, centre], half: vec![0.1, half] }];
+        form::fastest(&inertia, cells, &damping)
+    };
+    let (bent, stretched) = (over(1.0, 0.3), over(0.013, 0.3));
+    println!("{bent:?}, {stretched:?}");
+    assert!(bent.certified && !stretched.certified && stretched.rate.is_finite());
+    // λ_max(D⁻¹K) ≥ K/λ_min(D).
+    for k in 0..=100 {
+        let q = [0.0, 0.7 + 0.006 * f64::from(k)];
+        let least = symmetric_eigenvalues(&mass_matrix(&arm, &q))[0];
+        assert!(bent.rate >= 10.0 / least, "{} {}", bent.rate, 10.0 / least);
     }
 }

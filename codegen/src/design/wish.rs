@@ -67,8 +67,13 @@ pub(super) fn tune(stage: &Stage, wish: &DesignSpec) -> Result<Tuning, Error> {
         if candidate.holds {
             return Ok(candidate.tuning);
         }
+        // Where the drives are too weak for gains that would do, the gains of a shorter period only ask more.
+        let weak = short_of_torque(&candidate);
         if nearest.as_ref().is_none_or(|other| candidate.reach < other.reach) {
             nearest = Some(candidate);
+        }
+        if weak {
+            break;
         }
     }
     if let Some(nearest) = nearest.as_ref().filter(|nearest| short_of_torque(nearest)) {
