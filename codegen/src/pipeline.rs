@@ -244,6 +244,8 @@ impl Generation {
                     file: &loaded.path,
                     control,
                     arm: &arm,
+                    given: (&given, &uncertain),
+                    angles: angles.as_ref(),
                     lagrangian: &lagrangian,
                     bounds: &bounds,
                     domain: &domain,

@@ -88,7 +88,7 @@ impl Parts<'_> {
         let over = cells(domain, motion, &own);
         let wide: Vec<f64> = own.iter().zip(&self.initial[0]).map(|(a, b)| a.max(*b).max(1.0)).collect();
         let reach = reach(&cells(domain, motion, &wide), n);
-        let inertia = Inertia::of_family(arm, uncertainty, lagrangian, &reach);
+        let inertia = Inertia::of_family(arm, uncertainty, lagrangian, &reach, self.problem.angles);
         let facts = match self.facts {
             Some(facts) => facts.clone(),
             None => inertia_bounds(&inertia, over.clone(), self.gains, &self.form),

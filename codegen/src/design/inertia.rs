@@ -50,7 +50,7 @@ struct Member {
     arm: Arm,
     /// max|∂_k∂_l d_ij| at \[k n + l\]\[i n + j\].
     curvature: Vec<Vec<f64>>,
-    /// What rounding does to D and h.
+    /// What rounding does to D and h, that of the arm's rotations included.
     rounding: Bounds,
 }
 
@@ -64,7 +64,7 @@ struct Judged {
 }
 
 impl Member {
-    fn new(arm: Arm, lagrangian: &Lagrangian, u: &[f64], reach: &[f64]) -> Self {
+    fn new(arm: Arm, lagrangian: &Lagrangian, u: &[f64], reach: &[f64], angles: Option<&Bounds>) -> Self {
         let n = arm.dof();
         let largest = |psi: &Function| -> f64 {
             psi.power.iter().zip(reach).map(|(&p, q)| (0..p).fold(1.0, |m, _| m * q)).product()
@@ -77,25 +77,30 @@ impl Member {
         };
         // What the expansion has dropped bends D, too.
         let largest_monomial = reach.iter().fold(1.0, |p: f64, &q| p * (q * q).max(1.0));
-        let varied = u.iter().zip(&lagrangian.variation_truncation).map(|(u, t)| u.abs() * t);
-        let dropped = BENT * largest_monomial * (lagrangian.truncation + varied.sum::<f64>());
-        let mut curvature = vec![vec![dropped; n * n]; n * n];
+        let rounding = recursion_rounding(&arm, reach);
+        let rounding = angles.map_or_else(|| rounding.clone(), |angles| rounding.clone().plus(angles));
+        // An entry without a coefficient vanishes to rounding.
+        let none = |index: usize| BENT * largest_monomial * rounding.d[index / n][index % n];
+        let mut curvature = vec![(0..n * n).map(none).collect::<Vec<f64>>(); n * n];
         for coefficient in &lagrangian.coefficients {
             let varied = u.iter().zip(&coefficient.variations);
             let terms = varied.fold(coefficient.terms.clone(), |sum, (&u, v)| plus(&sum, u, v));
+            let errors = coefficient.errors.iter().map(|accuracy| accuracy.error);
+            let sizes = std::iter::once(1.0).chain(u.iter().map(|u| u.abs()));
+            let dropped = BENT * largest_monomial * errors.zip(sizes).map(|(e, size)| e * size).sum::<f64>();
             for place in &coefficient.places {
                 let Entry::D(i, j) = place.entry else { continue };
                 for (index, entries) in curvature.iter_mut().enumerate() {
                     let bend = |(psi, value): &(usize, f64)| {
                         value.abs() * second(&lagrangian.functions[*psi], index / n, index % n)
                     };
-                    let sum = dropped + terms.iter().map(bend).sum::<f64>() * (1.0 + SUMMED);
+                    let sum =
+                        none(i * n + j) + dropped + terms.iter().map(bend).sum::<f64>() * (1.0 + SUMMED);
                     entries[i * n + j] = sum;
                     entries[j * n + i] = sum;
                 }
             }
         }
-        let rounding = recursion_rounding(&arm, reach);
         Self { arm, curvature, rounding }
     }
 }
@@ -103,13 +108,21 @@ impl Member {
 impl Inertia {
     /// For cells inside |q_j| ≤ `reach`\[j\]; the reach matters for prismatic joints alone.
     pub fn new(arm: &Arm, lagrangian: &Lagrangian, reach: &[f64]) -> Self {
-        Self { members: vec![Member::new(arm.clone(), lagrangian, &[], reach)] }
+        Self { members: vec![Member::new(arm.clone(), lagrangian, &[], reach, None)] }
     }
 
     /// The same for every arm that `uncertainty` allows: D is affine in the uncertain parameters, so what is convex in D
     /// is largest at vertices of their box.
-    pub fn of_family(arm: &Arm, uncertainty: &Uncertainty, lagrangian: &Lagrangian, reach: &[f64]) -> Self {
-        let member = |u: Vec<f64>| Member::new(uncertainty.at(arm, &u), lagrangian, &u, reach);
+    ///
+    /// `angles` bounds what rounding the arm's rotations has changed of D and h.
+    pub fn of_family(
+        arm: &Arm,
+        uncertainty: &Uncertainty,
+        lagrangian: &Lagrangian,
+        reach: &[f64],
+        angles: Option<&Bounds>,
+    ) -> Self {
+        let member = |u: Vec<f64>| Member::new(uncertainty.at(arm, &u), lagrangian, &u, reach, angles);
         Self { members: uncertainty.extreme_vertices().into_par_iter().map(member).collect() }
     }
 

@@ -93,8 +93,12 @@ pub struct Problem<'a> {
     pub file: &'a Path,
     /// Its controller.
     pub control: &'a ControlSpec,
-    /// The arm.
+    /// The arm that the model is made of.
     pub arm: &'a Arm,
+    /// The arm as specified, before its rotations were rounded, and its family.
+    pub given: (&'a Arm, &'a Uncertainty),
+    /// What that rounding changes at most; `None` where it changes nothing.
+    pub angles: Option<&'a Bounds>,
     /// The exact model.
     pub lagrangian: &'a Lagrangian,
     /// What the reduced model leaves out over the domain.
@@ -185,7 +189,8 @@ impl<'a> Stage<'a> {
         let coulomb = |joint: &crate::arm::Joint| {
             if control.compensate_coulomb { joint.coulomb_friction } else { [0.0; 2] }
         };
-        let along = |motion| Feedforward::new(arm, problem.uncertainty, motion);
+        let (own, family) = problem.given;
+        let along = |motion| Feedforward::new(own, family, motion);
         Ok(Self {
             problem,
             feedforward: problem.motion.map(along),

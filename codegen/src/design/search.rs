@@ -87,7 +87,8 @@ impl<'a> Scene<'a> {
         let super::Problem { arm, lagrangian, domain, motion, uncertainty, .. } = *stage.problem;
         let n = arm.dof();
         let over = cells(domain, motion, &width(domain, n).unwrap_or(vec![0.0; n]));
-        let inertia = Inertia::of_family(arm, uncertainty, lagrangian, &reach(&over, n));
+        let inertia =
+            Inertia::of_family(arm, uncertainty, lagrangian, &reach(&over, n), stage.problem.angles);
         let extremes = inertia.largest(over.clone(), TOLERANCE, BUDGET / (n * n), |low, high| {
             let inverse = low.clone().cholesky().map(|factor| factor.inverse());
             let mobility = |i: usize| inverse.as_ref().map_or(f64::INFINITY, |m| m[(i, i)]);

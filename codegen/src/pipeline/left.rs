@@ -3,8 +3,8 @@
 use crate::arm::{Arm, Uncertainty};
 use crate::body::Form;
 use crate::bounds::{
-    Bounds, Certificate, Effort, Met, Rates, Torque, certified_telling, printed_up, published, reach, recursion,
-    recursion_rounding, torque_error, with_sines,
+    Bounds, Certificate, Effort, Met, Rates, Torque, certified_telling, printed_up, published, reach,
+    recursion, recursion_rounding, torque_error, with_sines,
 };
 use crate::lagrangian::Lagrangian;
 use crate::load::Loaded;

@@ -92,6 +92,8 @@ impl Example {
             file: Path::new("example.json"),
             control: &control,
             arm: &arm,
+            given: (&arm, &Uncertainty::default()),
+            angles: None,
             lagrangian: &lagrangian,
             bounds: &bounds,
             domain: &tube,
