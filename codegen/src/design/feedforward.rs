@@ -13,7 +13,7 @@ use crate::motion::{Motion, Span};
 
 /// Pieces of the motion to begin with.
 const PIECES: u32 = 32;
-/// Recursions that may be spent, for an arm of one joint: then the bounds found so far stand. What one costs grows with n.
+/// Pieces that may be looked at, for an arm of one joint: then the bounds found so far stand. What one costs grows with n.
 const BUDGET: usize = 60_000;
 /// Distance of bound and largest value at which halving ends, relative: of the torque, and of its rate, which converges an
 /// order more slowly.

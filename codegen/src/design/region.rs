@@ -116,8 +116,8 @@ fn box_cell(limits: &[[f64; 2]]) -> Cell {
     }
 }
 
-/// Boxes about pieces of the motion, wide enough for |q_d(t) − q_d(middle)| ≤ |q̇_d(middle)| h + ½ max|q̈_d| h² and
-/// `width` more.
+/// Boxes about pieces of the motion, wide enough for its range there or for |q_d(t) − q_d(middle)| ≤ |q̇_d(middle)| h +
+/// ½ max|q̈_d| h², and for `width` more.
 fn around(motion: &Motion, width: &[f64]) -> Vec<Cell> {
     let (speed, acceleration) = (motion.largest_speed(), motion.largest_acceleration());
     let length = |i: usize| speed[i] * motion.duration() / (0.5 * width[i]).max(1e-3);
@@ -125,8 +125,12 @@ fn around(motion: &Motion, width: &[f64]) -> Vec<Cell> {
     let pieces = wanted.clamp(PIECES[0], PIECES[1]) as u32;
     let h = 0.5 * motion.duration() / f64::from(pieces);
     let piece = |k: u32| {
-        let target = motion.at(h * f64::from(2 * k + 1));
-        let half = |i: usize| target.qd[i].abs() * h + 0.5 * acceleration[i] * h * h + width[i];
+        let middle = h * f64::from(2 * k + 1);
+        let (target, span) = (motion.at(middle), motion.span(middle - h, middle + h));
+        let half = |i: usize| {
+            let near = (span.q[i].high - target.q[i]).max(target.q[i] - span.q[i].low);
+            near.min(target.qd[i].abs() * h + 0.5 * acceleration[i] * h * h) + width[i]
+        };
         Cell { half: (0..width.len()).map(half).collect(), centre: target.q }
     };
     (0..pieces).map(piece).collect()

@@ -97,7 +97,7 @@ fn what_cannot_be_certified_is_said_to_be_so() {
     };
     let (bent, stretched) = (over(1.0, 0.3), over(0.013, 0.3));
     println!("{bent:?}, {stretched:?}");
-    assert!(bent.certified && !stretched.certified && stretched.rate.is_finite());
+    assert!(bent.certified && !stretched.certified);
     // λ_max(D⁻¹K) ≥ K/λ_min(D).
     for k in 0..=100 {
         let q = [0.0, 0.7 + 0.006 * f64::from(k)];
