@@ -66,7 +66,11 @@ impl Parts<'_> {
         for (number, (asked, joint)) in (1..).zip(asked.zip(&arm.joints)) {
             let Some(limit) = joint.limits.torque else { continue };
             share = share.max(asked / limit);
-            if asked >= limit {
+            // What the motion itself takes beyond the limit has been said.
+            let said = self
+                .feedforward
+                .is_some_and(|taken| taken.torque[number - 1] + friction(number - 1) >= limit);
+            if asked >= limit && !said {
                 reasons.push(format!(
                     "the initial errors may ask {asked:.4} of joint {number} in the first step, its torque limit is {limit}"
                 ));
