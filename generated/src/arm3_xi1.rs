@@ -13,7 +13,7 @@
 ///
 /// Certified torque error by joint: at most (6.546e-1, 1.233e1, 1.951e-1) of a peak torque of (9.432e-1, 4.279e1, 1.099e1), that is 6.940e1 % in the worst joint. It holds for speeds up to (5.626e-1, 3.376e-1, 3.751e-1) and accelerations up to (3.465e-1, 2.079e-1, 2.310e-1). The peak torque is the largest that a search found within them, so the true one is no smaller.
 ///
-/// Torque error that the law meets by joint, its feedback included: at most (7.791e1, 6.758e1, 2.042e1) inside the domain, for speeds up to (8.073e0, 5.239e0, 8.919e0), reference speeds up to (4.318e0, 2.788e0, 4.647e0) and reference accelerations up to (3.039e1, 1.982e1, 3.441e1).
+/// Torque error that the law meets by joint, its feedback included: at most (7.784e1, 6.754e1, 2.040e1) inside the domain, for speeds up to (8.067e0, 5.238e0, 8.917e0), reference speeds up to (4.315e0, 2.788e0, 4.646e0) and reference accelerations up to (3.037e1, 1.981e1, 3.440e1).
 ///
 /// Domain of the bounds: |q − q_d(t)| ≤ (0.2, 0.2, 0.2) around the desired trajectory. They are certified, rounding in f64 included; coefficients that are not simplified are exact but for rounding, which is in the torque error, and count as zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -96,21 +96,21 @@ impl ::gramforge_runtime::Model<3> for Arm3Xi1 {
 /// Whether the joints stay inside the domain of the bounds from every initial error specified, as long as the
 /// planned motion lasts and no torque limit cuts the command.
 ///
-/// Largest initial position error for which that domain is enough, other reasons apart: (0.039031, 0.039031, 0.039031).
+/// Largest initial position error for which that domain is enough, other reasons apart: (0.039041, 0.039041, 0.039041).
 ///
 /// Not guaranteed, because:
-/// - the sign function, held for 0.01 s, may raise V from 3.566e0 J to 6.622e2 J: take a boundary layer or a shorter period
-/// - the error of joint 1 may reach 0.9387, the tube holds 0.2000; the error of joint 2 may reach 0.6126, the tube holds 0.2000; the error of joint 3 may reach 1.0679, the tube holds 0.2000
+/// - the sign function, held for 0.01 s, may raise V from 3.566e0 J to 6.601e2 J: take a boundary layer or a shorter period
+/// - the error of joint 1 may reach 0.9380, the tube holds 0.2000; the error of joint 2 may reach 0.6125, the tube holds 0.2000; the error of joint 3 may reach 1.0677, the tube holds 0.2000
 pub const GUARANTEED: bool = false;
 
 /// Periods below this keep the sampled loop stable at every D of the domain, held still, s.
-pub const PERIOD_MAX: f64 = 0.012293444055977031;
+pub const PERIOD_MAX: f64 = 0.012301201602789556;
 
 /// What |q − q_d| ends below if [`GUARANTEED`], by joint, rad or m; means nothing otherwise.
 pub const FINAL_ERROR: [f64; 3] = [
-    0.938749389038689,
-    0.6125984614804977,
-    1.0679435468777885,
+    0.9379629117311243,
+    0.6124863155865167,
+    1.0676612176380023,
 ];
 
 /// Period, torque limits and fault policy.
@@ -128,14 +128,14 @@ pub const LAW: ::gramforge_runtime::ReportLaw<f64, 3> = ::gramforge_runtime::Rep
         pqq: [[0.25, 0.0, 0.0], [0.0, 0.25, 0.0], [0.0, 0.0, 0.25]],
     },
     delta_c: [
-        [7.689154162865268, 6.461582854014561, 3.1645323607068874],
-        [6.461582854014561, 0.0, 0.0],
-        [3.1645323607068874, 0.0, 0.0],
+        [7.68755061468473, 6.456546605678751, 3.1620658797849064],
+        [6.456546605678751, 0.0, 0.0],
+        [3.1620658797849064, 0.0, 0.0],
     ],
     coriolis_term: ::gramforge_runtime::CoriolisTerm::Matrix([
-        [12.002217118632668, 0.0, 0.0],
-        [0.0, 12.002217118632668, 0.0],
-        [0.0, 0.0, 12.002217118632668],
+        [11.996091745811386, 0.0, 0.0],
+        [0.0, 11.996091745811386, 0.0],
+        [0.0, 0.0, 11.996091745811386],
     ]),
     disturbance: [0.0, 0.0, 0.0],
     switching: ::gramforge_runtime::Switching::Sign,

@@ -15,7 +15,7 @@
 ///
 /// Certified torque error by joint: at most (1.144e-1, 2.880e-9, 1.121e-9) of a peak torque of (9.432e-1, 4.279e1, 1.099e1), that is 1.213e1 % in the worst joint. It holds for speeds up to (5.626e-1, 3.376e-1, 3.751e-1) and accelerations up to (3.465e-1, 2.079e-1, 2.310e-1). The peak torque is the largest that a search found within them, so the true one is no smaller.
 ///
-/// Torque error that the law meets by joint, its feedback included: at most (1.004e1, 8.844e-8, 4.078e-8) inside the domain, for speeds up to (8.073e0, 5.239e0, 8.919e0), reference speeds up to (4.318e0, 2.788e0, 4.647e0) and reference accelerations up to (3.039e1, 1.982e1, 3.441e1).
+/// Torque error that the law meets by joint, its feedback included: at most (1.003e1, 8.836e-8, 4.074e-8) inside the domain, for speeds up to (8.067e0, 5.238e0, 8.917e0), reference speeds up to (4.315e0, 2.788e0, 4.646e0) and reference accelerations up to (3.037e1, 1.981e1, 3.440e1).
 ///
 /// Domain of the bounds: |q − q_d(t)| ≤ (0.2, 0.2, 0.2) around the desired trajectory. They are certified, rounding in f64 included; coefficients that are not simplified are exact but for rounding, which is in the torque error, and count as zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -109,20 +109,20 @@ impl ::gramforge_runtime::Model<3> for Arm3Xi3 {
 /// Whether the joints stay inside the domain of the bounds from every initial error specified, as long as the
 /// planned motion lasts and no torque limit cuts the command.
 ///
-/// Largest initial position error for which that domain is enough, other reasons apart: (0.039031, 0.039031, 0.039031).
+/// Largest initial position error for which that domain is enough, other reasons apart: (0.039041, 0.039041, 0.039041).
 ///
 /// Not guaranteed, because:
-/// - the error of joint 1 may reach 0.9387, the tube holds 0.2000; the error of joint 2 may reach 0.6126, the tube holds 0.2000; the error of joint 3 may reach 1.0679, the tube holds 0.2000
+/// - the error of joint 1 may reach 0.9380, the tube holds 0.2000; the error of joint 2 may reach 0.6125, the tube holds 0.2000; the error of joint 3 may reach 1.0677, the tube holds 0.2000
 pub const GUARANTEED: bool = false;
 
 /// Periods below this keep the sampled loop stable at every D of the domain, held still, s.
-pub const PERIOD_MAX: f64 = 0.015859583624409094;
+pub const PERIOD_MAX: f64 = 0.0158677105073198;
 
 /// What |q − q_d| ends below if [`GUARANTEED`], by joint, rad or m; means nothing otherwise.
 pub const FINAL_ERROR: [f64; 3] = [
-    0.00706921351199797,
-    0.0046131474192082,
-    0.008042104783013988,
+    0.00705118722272156,
+    0.004604399202293259,
+    0.008026201294153594,
 ];
 
 /// Period, torque limits and fault policy.
