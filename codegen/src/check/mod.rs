@@ -54,7 +54,7 @@ pub fn from_loaded(loaded: Loaded) -> Result<Checked, Error> {
 /// Every fault goes to `faults`; `None` stands for an arm or a motion that is at fault, or for no motion.
 pub fn examine(loaded: &Loaded, faults: &mut Faults) -> (Option<Built>, Option<Motion>) {
     let built = Arm::from_spec(loaded, faults);
-    let motion = check(&loaded.spec, built.as_ref().map(|b| &b.arm), faults);
+    let motion = check(loaded, built.as_ref().map(|b| &b.arm), faults);
     (built, motion)
 }
 
@@ -62,7 +62,8 @@ pub fn examine(loaded: &Loaded, faults: &mut Faults) -> (Option<Built>, Option<M
 ///
 /// Without an arm (because it is at fault) the number of joints is taken from the DH table, and what needs to know
 /// more is passed over.
-fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> {
+fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> {
+    let spec = &loaded.spec;
     let table = || spec.arm.dh.as_ref().map(|table| table.links.len());
     // A table with too many links says nothing about the lengths that are meant.
     let joints = arm.map(Arm::dof).or_else(table).filter(|n| (1..=MOST_JOINTS).contains(n));
@@ -84,7 +85,7 @@ fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> 
         | ModelSpec::Auto
         | ModelSpec::Exact => {}
     }
-    let motion = spec.motion.as_ref().and_then(|motion| motion::check(motion, arm, joints, faults));
+    let motion = spec.motion.as_ref().and_then(|motion| motion::check(motion, loaded, arm, joints, faults));
     measure::check(spec, arm, joints, faults);
     if let Some(control) = &spec.control {
         control::check(control, joints, faults);
