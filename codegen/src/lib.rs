@@ -43,6 +43,7 @@ pub mod lagrangian;
 pub mod load;
 pub mod measure;
 pub mod motion;
+pub mod number;
 pub mod output;
 pub mod pipeline;
 pub mod progress;

@@ -26,6 +26,7 @@ pub fn write_all(files: &[Wanted<'_>]) -> Result<Vec<bool>, Error> {
     let mut faults = Faults::of(Path::new(""));
     let mut partials = Vec::with_capacity(files.len());
     for &(path, text) in files {
+        partial::clean(path);
         if is_current(path, text) {
             partials.push(None);
             continue;

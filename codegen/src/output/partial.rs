@@ -28,7 +28,6 @@ impl Partial {
         let (folder, name) = parts(target)?;
         let failed = |error: std::io::Error| format!("cannot be written ({error})");
         fs::create_dir_all(folder).map_err(failed)?;
-        leftover::clean(folder, name);
         Self::create(folder, name)
             .and_then(|mut partial| partial.fill(text).map(|()| partial))
             .map_err(failed)
@@ -88,6 +87,13 @@ impl Drop for Partial {
             let _ = fs::remove_file(&self.path);
         }
         self.file = None;
+    }
+}
+
+/// Removes what ended processes have left beside `target`.
+pub(super) fn clean(target: &Path) {
+    if let Ok((folder, name)) = parts(target) {
+        leftover::clean(folder, name);
     }
 }
 

@@ -93,7 +93,11 @@ fn what_an_ended_process_left_is_removed_and_what_a_living_one_writes_is_not() {
     let held = fs::File::options().write(true).open(folder.0.join(&alive)).unwrap();
     held.lock().unwrap();
     assert!(write_if_changed(&path, "text").unwrap());
-    assert_eq!(folder.names(), [alive, other, "arm.rs".to_string()]);
+    assert_eq!(folder.names(), [alive.as_str(), &other, "arm.rs"]);
+    // Also where the file says already what it is to say.
+    fs::write(folder.0.join(&dead), "half").unwrap();
+    assert!(!write_if_changed(&path, "text").unwrap());
+    assert_eq!(folder.names(), [alive.as_str(), &other, "arm.rs"]);
 }
 
 #[test]
