@@ -1,12 +1,16 @@
 //! The builder for `build.rs`, and the engine of the command.
 
+mod build_script;
+mod modules;
+
+use std::io::stdout;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::bounds::Effort;
 use crate::error::{Error, Faults, Stale};
 use crate::load::{Loaded, load};
-use crate::output::{is_current, write_if_changed};
+use crate::output::{Wanted, is_current, write_all};
 use crate::pipeline::Generation;
 use crate::progress::{Progress, Silent, Titled};
 
@@ -45,6 +49,12 @@ pub struct Output {
     pub generation: Generation,
 }
 
+impl Output {
+    fn wanted(&self) -> Wanted<'_> {
+        (&self.path, &self.text)
+    }
+}
+
 impl Config {
     /// No specification yet; output to `OUT_DIR`.
     pub fn new() -> Self {
@@ -79,24 +89,25 @@ impl Config {
         self
     }
 
-    /// Generates every module and writes those that changed. No file is touched unless all can be generated.
+    /// Generates every module and writes those that changed. No file is touched unless all can be generated and written.
     ///
     /// # Errors
     /// [`Error::Input`] with the faults of all specifications, or where a file cannot be written.
     pub fn generate(&self) -> Result<Vec<Output>, Error> {
-        let mut outputs = self.build()?;
-        for output in &mut outputs {
-            output.written = write_if_changed(&output.path, &output.text)?;
+        let mut outputs = self.build(self.load())?;
+        let written = write_all(&outputs.iter().map(Output::wanted).collect::<Vec<_>>())?;
+        for (output, written) in outputs.iter_mut().zip(written) {
+            output.written = written;
         }
         Ok(outputs)
     }
 
-    /// Compares every module with its file and writes nothing.
+    /// Compares every module with its file, byte for byte, and writes nothing.
     ///
     /// # Errors
     /// [`Error::Stale`] with every file that differs or is missing; otherwise as [`Config::generate`].
     pub fn check(&self) -> Result<Vec<Output>, Error> {
-        let outputs = self.build()?;
+        let outputs = self.build(self.load())?;
         let differing =
             outputs.iter().zip(&self.specs).filter(|(output, _)| !is_current(&output.path, &output.text));
         let stale: Vec<Stale> = differing
@@ -109,38 +120,32 @@ impl Config {
         if stale.is_empty() { Ok(outputs) } else { Err(Error::Stale(stale)) }
     }
 
-    /// [`Config::generate`] for a build script: tells cargo to run again when a specification or a file that
-    /// it names changes, shows warnings, and ends the build with the faults if there are any.
+    /// [`Config::generate`] for a build script.
+    ///
+    /// Tells cargo to run the script again when a specification or a file that it names changes, and shows warnings. Of
+    /// the modules that earlier runs have written below `OUT_DIR`, those that no specification gives any more are removed.
+    /// Where anything is wrong, cargo is told every fault, each of these modules is replaced by one that does not compile
+    /// and says why, and the process ends with exit code 1: `build.rs` does not go on, and the build fails.
+    ///
+    /// Files outside `OUT_DIR`, where [`Config::out_dir`] names such a folder, are written and never removed.
     pub fn run_in_build_script(&self) {
-        for spec in &self.specs {
-            println!("cargo:rerun-if-changed={}", spec.display());
-            // A faulty specification still names files whose mending must rerun the script.
-            if let Ok(loaded) = load(spec) {
-                for file in loaded.files {
-                    println!("cargo:rerun-if-changed={}", file.display());
-                }
-            }
-        }
-        match self.generate() {
-            Ok(outputs) => {
-                for warning in outputs.iter().flat_map(|output| &output.generation.warnings) {
-                    println!("cargo:warning={warning}");
-                }
-            }
-            Err(error) => {
-                for line in error.to_string().lines() {
-                    println!("cargo:error={line}");
-                }
-            }
+        let done = build_script::run(self, &mut stdout().lock());
+        if !done {
+            std::process::exit(1);
         }
     }
 
-    fn build(&self) -> Result<Vec<Output>, Error> {
+    /// Reads every specification, with the files that it names, once.
+    fn load(&self) -> Vec<Result<Loaded, Error>> {
+        self.specs.iter().map(|spec| load(spec)).collect()
+    }
+
+    fn build(&self, loaded: Vec<Result<Loaded, Error>>) -> Result<Vec<Output>, Error> {
         let out_dir = self.folder()?;
         let mut faults = Vec::new();
         let mut outputs: Vec<Output> = Vec::new();
-        for spec in &self.specs {
-            let generation = load(spec).and_then(|loaded| self.generation(loaded));
+        for (spec, loaded) in self.specs.iter().zip(loaded) {
+            let generation = loaded.and_then(|loaded| self.generation(loaded));
             let built = generation.and_then(|generation| {
                 let path = out_dir.join(format!("{}.rs", generation.loaded.spec.name));
                 Ok(Output { path, text: generation.module()?, written: false, generation })

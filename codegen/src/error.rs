@@ -3,7 +3,9 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// One thing wrong with the input.
+use crate::text::escaped;
+
+/// One thing wrong with the input. Shown, it takes one line, whatever it holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// The file it stands in.
@@ -18,11 +20,11 @@ pub struct Fault {
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.file.display())?;
+        write!(f, "{}", escaped(&self.file.to_string_lossy()))?;
         if !self.field.is_empty() {
-            write!(f, ": {}", self.field)?;
+            write!(f, ": {}", escaped(&self.field))?;
         }
-        write!(f, ": {}; {}", self.problem, self.mend)
+        write!(f, ": {}; {}", escaped(&self.problem), escaped(&self.mend))
     }
 }
 
@@ -109,7 +111,7 @@ pub enum Error {
     #[error("{}", stale(.0))]
     Stale(Vec<Stale>),
     /// A defect of Gramforge itself: exit code 3.
-    #[error("internal error: {0}; please report it with the specification")]
+    #[error("internal error: {}; please report it with the specification", escaped(.0))]
     Internal(String),
 }
 
@@ -133,7 +135,8 @@ impl Error {
 
 fn stale(files: &[Stale]) -> String {
     let line = |file: &Stale| {
-        format!("{} is not what its specification gives; run `{}`", file.path.display(), file.command)
+        let path = file.path.to_string_lossy();
+        format!("{} is not what its specification gives; run `{}`", escaped(&path), escaped(&file.command))
     };
     files.iter().map(line).collect::<Vec<_>>().join("\n")
 }

@@ -18,8 +18,8 @@
 //! 10. [`mod@emit`] prints graph and constants as Rust.
 //!
 //! Beside the line stand [`mod@simulate`], which closes the loop with the very laws of the runtime, [`report`], which
-//! shows what came out, [`progress`], which tells how far the work is, [`output`], the only place that writes files, and
-//! [`cli`].
+//! shows what came out, [`progress`], which tells how far the work is, [`output`], the only place that writes files, [`text`], which
+//! escapes what is printed, and [`cli`].
 //!
 //! Every stage is a function from values to a value and knows none after it. The same specification gives the same
 //! bytes on every machine: sums have a fixed order, sines come from `libm`, and no hash map is ever iterated.
@@ -43,6 +43,7 @@ pub mod lagrangian;
 pub mod load;
 pub mod measure;
 pub mod motion;
+pub mod number;
 pub mod output;
 pub mod pipeline;
 pub mod progress;
@@ -53,6 +54,7 @@ pub mod simulate;
 pub mod sines;
 pub mod spec;
 pub mod spread;
+pub mod text;
 pub mod tolerance;
 
 pub use config::{Config, Output};

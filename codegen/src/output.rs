@@ -1,37 +1,89 @@
 //! The only place that writes files.
+//!
+//! All files are written beside their targets before the first one takes its place, so that a failure leaves everything
+//! as it was and no reader ever sees half a file. What a process writes bears a name of its own and is locked as long as
+//! the process lives; what an ended one has left behind is thrown away by the next that writes the same file.
+
+mod leftover;
+mod partial;
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 
-use crate::error::Error;
+use crate::error::{Error, Faults};
+use partial::Partial;
 
-/// Writes `text` to `path` if the file says something else, creating folders on the way; true if it wrote.
-///
-/// A temporary file beside the target takes its place at the end, so that no reader sees half a file.
+/// A file to be written: where, and what it is to say.
+pub type Wanted<'a> = (&'a Path, &'a str);
+
+/// Writes every file that says something else, creating folders on the way; tells for each whether it was written.
 ///
 /// # Errors
-/// [`Error::Input`] naming the path where it cannot be written.
-pub fn write_if_changed(path: &Path, text: &str) -> Result<bool, Error> {
-    if is_current(path, text) {
-        return Ok(false);
+/// [`Error::Input`] naming every path that cannot be written or is something else than a regular file. No file has been
+/// changed then, unless a temporary one could be written and the file system refused to let it take its place.
+pub fn write_all(files: &[Wanted<'_>]) -> Result<Vec<bool>, Error> {
+    let mut faults = Faults::of(Path::new(""));
+    let mut partials = Vec::with_capacity(files.len());
+    for &(path, text) in files {
+        partial::clean(path);
+        if is_current(path, text) {
+            partials.push(None);
+            continue;
+        }
+        match replaceable(path).and_then(|()| Partial::beside(path, text)) {
+            Ok(partial) => partials.push(Some(partial)),
+            Err(problem) => unwritable(path, &problem, &mut faults),
+        }
     }
-    let unwritable = |error: std::io::Error| {
-        Error::input(path, "", format!("cannot be written ({error})"), "name a folder that can be written to")
-    };
-    if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder).map_err(unwritable)?;
+    faults.finish(())?;
+    let mut faults = Faults::of(Path::new(""));
+    let mut written = Vec::with_capacity(files.len());
+    for (&(path, text), partial) in files.iter().zip(partials) {
+        written.push(partial.is_some());
+        let Some(partial) = partial else { continue };
+        if let Err(problem) = partial.take_place(path, text) {
+            unwritable(path, &problem, &mut faults);
+        }
     }
-    let mut partial = path.as_os_str().to_owned();
-    partial.push(".partial");
-    let written = fs::write(&partial, text).and_then(|()| fs::rename(&partial, path));
-    if written.is_err() {
-        // Nothing to be done if even this fails: the first error is the one to tell.
-        let _ = fs::remove_file(&partial);
-    }
-    written.map(|()| true).map_err(unwritable)
+    faults.finish(written)
 }
 
-/// Whether the file at `path` says `text`, line endings aside.
-pub fn is_current(path: &Path, text: &str) -> bool {
-    fs::read_to_string(path).is_ok_and(|found| found == text || found.replace("\r\n", "\n") == text)
+/// [`write_all`] for a single file.
+///
+/// # Errors
+/// As [`write_all`].
+pub fn write_if_changed(path: &Path, text: &str) -> Result<bool, Error> {
+    write_all(&[(path, text)]).map(|written| written == [true])
 }
+
+/// Whether the file at `path` says `text`, byte for byte. Nothing but a regular file is opened: a pipe could be waited
+/// for in vain.
+pub fn is_current(path: &Path, text: &str) -> bool {
+    let regular = fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() == text.len() as u64);
+    regular && fs::read(path).is_ok_and(|found| found == text.as_bytes())
+}
+
+/// Why `path` may not be replaced, if it may not: a link, pipe, device or folder is not ours to remove.
+fn replaceable(path: &Path) -> Result<(), String> {
+    match fs::symlink_metadata(path) {
+        Ok(found) if found.is_file() => Ok(()),
+        Ok(found) if found.is_dir() => Err("is a folder".to_string()),
+        Ok(found) if found.is_symlink() => Err("is a symbolic link".to_string()),
+        Ok(_) => Err("is not a regular file".to_string()),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
+        Err(error) => Err(format!("cannot be written ({error})")),
+    }
+}
+
+fn unwritable(path: &Path, problem: &str, faults: &mut Faults) {
+    let mend = if problem.starts_with("is ") {
+        "remove it, or name another folder: only regular files are replaced"
+    } else {
+        "name a folder that can be written to"
+    };
+    faults.push_in(path, "", problem, mend);
+}
+
+#[cfg(test)]
+mod tests;

@@ -33,7 +33,8 @@ pub fn motion(name: &str) -> Motion {
     let checked = prepare(&spec(name)).unwrap_or_else(|error| panic!("{error}"));
     let mut faults = Faults::of(&checked.loaded.path);
     let spec = checked.loaded.spec.motion.as_ref().expect("the specification has a motion");
-    Motion::from_spec(spec, checked.built.arm.dof(), &mut faults).expect("a motion without faults")
+    Motion::from_spec(spec, checked.built.arm.dof(), &checked.loaded, &mut faults)
+        .expect("a motion without faults")
 }
 
 /// All stages for specification `name`.

@@ -153,7 +153,7 @@ impl Arm {
                 refuse_urdf_fields(spec, faults);
                 dh::build(table, angle, &loaded.path, faults, warnings)
             }
-            (None, Some(file)) => urdf::build(spec, angle, &loaded.resolve(file), faults, warnings),
+            (None, Some(file)) => urdf::build(spec, angle, &loaded.named("arm.urdf", file), faults, warnings),
             (Some(_), Some(_)) => {
                 faults.push("arm", "has both `dh` and `urdf`", "keep the one that describes the arm");
                 None

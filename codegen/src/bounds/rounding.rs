@@ -28,6 +28,7 @@
 //! Uncertain parameters add the same three for every ∂α_m/∂u_k and ∂α̂_m/∂u_k, times the largest |u_k|.
 
 use crate::lagrangian::{Combination, Lagrangian};
+use crate::number::{percent, short};
 use crate::reduction::Reduced;
 
 /// Relative rounding of one enclosure.
@@ -98,12 +99,17 @@ fn neighbours(x: f64, digits: usize) -> Vec<f64> {
 
 /// `x` ≥ 0 with four digits, never below: what is printed of a bound is one, too.
 pub fn printed_up(x: f64) -> String {
-    if x == 0.0 { "0".to_string() } else { format!("{:.3e}", up(x, 4)) }
+    short(up(x, 4))
+}
+
+/// A fraction ≥ 0 as a percentage with four digits, never below.
+pub fn percent_up(fraction: f64) -> String {
+    percent(up(100.0 * fraction, 4))
 }
 
 /// `x` ≥ 0 with four digits, never above.
 pub fn printed_down(x: f64) -> String {
-    if x == 0.0 { "0".to_string() } else { format!("{:.3e}", down(x, 4)) }
+    short(down(x, 4))
 }
 
 #[cfg(test)]
@@ -112,8 +118,8 @@ mod tests {
 
     #[test]
     fn four_digits_enclose_what_they_print() {
-        assert_eq!((printed_down(82.839).as_str(), printed_up(82.839).as_str()), ("8.283e1", "8.284e1"));
-        assert_eq!((printed_down(0.05).as_str(), printed_up(0.05).as_str()), ("5.000e-2", "5.000e-2"));
+        assert_eq!((printed_down(82.839).as_str(), printed_up(82.839).as_str()), ("82.83", "82.84"));
+        assert_eq!((printed_down(0.05).as_str(), printed_up(0.05).as_str()), ("0.05000", "0.05000"));
         assert_eq!((printed_down(0.0).as_str(), printed_up(0.0).as_str()), ("0", "0"));
         let mut x = 1e-6_f64;
         while x < 1e6 {

@@ -4,6 +4,7 @@ mod control;
 mod design;
 mod measure;
 mod motion;
+mod name;
 mod shape;
 
 use std::path::Path;
@@ -15,6 +16,7 @@ use crate::motion::Motion;
 use crate::sines::{COARSEST, FINEST};
 use crate::spec::{DictionarySpec, LawSpec, ModelSpec, Spec, TrigSpec};
 
+pub(crate) use name::is_module_name;
 pub(crate) use shape::has;
 pub use shape::{matrix, vector};
 
@@ -54,7 +56,7 @@ pub fn from_loaded(loaded: Loaded) -> Result<Checked, Error> {
 /// Every fault goes to `faults`; `None` stands for an arm or a motion that is at fault, or for no motion.
 pub fn examine(loaded: &Loaded, faults: &mut Faults) -> (Option<Built>, Option<Motion>) {
     let built = Arm::from_spec(loaded, faults);
-    let motion = check(&loaded.spec, built.as_ref().map(|b| &b.arm), faults);
+    let motion = check(loaded, built.as_ref().map(|b| &b.arm), faults);
     (built, motion)
 }
 
@@ -62,11 +64,12 @@ pub fn examine(loaded: &Loaded, faults: &mut Faults) -> (Option<Built>, Option<M
 ///
 /// Without an arm (because it is at fault) the number of joints is taken from the DH table, and what needs to know
 /// more is passed over.
-fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> {
+fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> {
+    let spec = &loaded.spec;
     let table = || spec.arm.dh.as_ref().map(|table| table.links.len());
     // A table with too many links says nothing about the lengths that are meant.
     let joints = arm.map(Arm::dof).or_else(table).filter(|n| (1..=MOST_JOINTS).contains(n));
-    name(&spec.name, faults);
+    name::check(&spec.name, faults);
     match &spec.model {
         ModelSpec::Shared { functions: 0 } => {
             faults.push("model.shared.functions", "is 0", "write a whole number of at least 1");
@@ -84,7 +87,7 @@ fn check(spec: &Spec, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> 
         | ModelSpec::Auto
         | ModelSpec::Exact => {}
     }
-    let motion = spec.motion.as_ref().and_then(|motion| motion::check(motion, arm, joints, faults));
+    let motion = spec.motion.as_ref().and_then(|motion| motion::check(motion, loaded, arm, joints, faults));
     measure::check(spec, arm, joints, faults);
     if let Some(control) = &spec.control {
         control::check(control, joints, faults);
@@ -151,29 +154,6 @@ fn going_together(spec: &Spec, faults: &mut Faults) {
             (false, _) => MODEL.to_string(),
         };
         faults.push("control.law", problem, format!("{other}, or take law `report` or `tight`"));
-    }
-}
-
-/// Words that cannot name a Rust module.
-const KEYWORDS: [&str; 51] = [
-    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
-    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop",
-    "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static",
-    "struct", "super", "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual",
-    "where", "while", "yield",
-];
-
-fn name(name: &str, faults: &mut Faults) {
-    let mut letters = name.chars();
-    let begins = letters.next().is_some_and(|c| c.is_ascii_lowercase());
-    if !begins || !letters.all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_') {
-        faults.push(
-            "name",
-            format!("is {name:?}"),
-            "write a lower-case letter, then lower-case letters, digits and underscores: it names a Rust module",
-        );
-    } else if KEYWORDS.contains(&name) {
-        faults.push("name", format!("is {name:?}, a word of the Rust language"), "choose another name");
     }
 }
 

@@ -3,6 +3,7 @@
 use super::shape::{has, length};
 use crate::arm::Arm;
 use crate::error::Faults;
+use crate::load::Loaded;
 use crate::motion::{Motion, check_limits};
 use crate::spec::MotionSpec;
 
@@ -10,6 +11,7 @@ use crate::spec::MotionSpec;
 /// arm where that is known.
 pub(super) fn check(
     spec: &MotionSpec,
+    loaded: &Loaded,
     arm: Option<&Arm>,
     joints: Option<usize>,
     faults: &mut Faults,
@@ -19,7 +21,7 @@ pub(super) fn check(
     if faults.count() > before {
         return None;
     }
-    let motion = Motion::from_spec(spec, joints?, faults)?;
+    let motion = Motion::from_spec(spec, joints?, loaded, faults)?;
     if let Some(arm) = arm {
         check_limits(&motion, arm, faults);
     }

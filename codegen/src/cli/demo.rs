@@ -6,7 +6,7 @@ use super::progress::watched;
 use crate::bounds::Effort;
 use crate::error::Error;
 use crate::load::{Loaded, parse};
-use crate::output::write_if_changed;
+use crate::output::write_all;
 use crate::pipeline::Generation;
 use crate::progress::Stage;
 use crate::report::{bounds_table, claims, claims_table, metrics_table, operations_table, plot};
@@ -34,8 +34,7 @@ pub(super) fn run() -> Result<String, Error> {
 
     let module = folder.join("arm3.rs");
     let picture = folder.join("arm3.svg");
-    write_if_changed(&module, &sign.module()?)?;
-    write_if_changed(&picture, &plot(&with, joints)?)?;
+    write_all(&[(&module, &sign.module()?), (&picture, &plot(&with, joints)?)])?;
 
     let selected: Vec<String> =
         sign.reduced.selected.iter().map(|&l| sign.lagrangian.functions[l].to_string()).collect();

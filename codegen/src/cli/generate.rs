@@ -22,7 +22,7 @@ pub(super) struct Generate {
     /// The folder that the modules go to; made where it is missing.
     #[arg(long)]
     out: PathBuf,
-    /// Write nothing; exit with 1 where a file differs from what its specification gives.
+    /// Write nothing; exit with 1 where a file differs in any byte from what its specification gives.
     #[arg(long)]
     check: bool,
     /// Print JSON.

@@ -4,6 +4,7 @@ mod demo;
 mod evaluate;
 mod generate;
 mod inspect;
+mod print;
 mod progress;
 mod reproduce;
 mod simulate;
@@ -15,6 +16,7 @@ use clap::{Parser, Subcommand};
 use serde::Serialize;
 
 use crate::error::Error;
+use crate::text::{escaped, escaped_json};
 
 /// Generates reduced robot dynamics and tracking controllers as flat, allocation-free no_std Rust.
 ///
@@ -41,7 +43,11 @@ enum Command {
 
 /// Runs the command that the process arguments name.
 pub fn run() -> ExitCode {
-    let outcome = match Cli::parse().command {
+    let command = match Cli::try_parse() {
+        Ok(cli) => cli.command,
+        Err(error) => return print::usage(error),
+    };
+    let outcome = match command {
         None => demo::run(),
         Some(Command::Inspect(command)) => command.run(),
         Some(Command::Evaluate(command)) => command.run(),
@@ -50,13 +56,10 @@ pub fn run() -> ExitCode {
         Some(Command::Reproduce(command)) => command.run(),
         Some(Command::Schema) => json(&crate::load::schema()),
     };
-    match outcome {
-        Ok(text) => {
-            // A reader that has seen enough closes the pipe; that is no error of ours.
-            let _ = std::io::stdout().lock().write_all(text.as_bytes());
-            ExitCode::SUCCESS
-        }
+    match outcome.and_then(|text| print::result(&text)) {
+        Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
+            // Where even this cannot be said, the exit code says it.
             let _ = writeln!(std::io::stderr().lock(), "{error}");
             ExitCode::from(error.exit_code())
         }
@@ -66,12 +69,12 @@ pub fn run() -> ExitCode {
 /// `value` as indented JSON with a final newline.
 fn json(value: &impl Serialize) -> Result<String, Error> {
     let text = serde_json::to_string_pretty(value).map_err(|error| Error::Internal(error.to_string()))?;
-    Ok(text + "\n")
+    Ok(escaped_json(&text) + "\n")
 }
 
 /// Shows the warnings of a specification on standard error.
 fn show_warnings(warnings: &[String]) {
     for warning in warnings {
-        let _ = writeln!(std::io::stderr().lock(), "warning: {warning}");
+        let _ = writeln!(std::io::stderr().lock(), "warning: {}", escaped(warning));
     }
 }

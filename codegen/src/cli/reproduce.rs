@@ -1,6 +1,6 @@
 //! `gramforge reproduce`: section 4 of the 1992 report.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::json;
 use super::progress::watched;
 use crate::error::Error;
-use crate::output::write_if_changed;
+use crate::output::{Wanted, write_all};
 use crate::report::{Claim, Figures, claims_table, figures};
 use crate::reproduce::{claims, run};
 
@@ -47,12 +47,11 @@ impl Reproduce {
         let claims = claims(&cases);
         let table = claims_table(&claims);
         files.push(("claims.txt".to_string(), table.clone()));
-        let mut names = Vec::new();
-        for (name, text) in &files {
-            let path: PathBuf = Path::new(&self.out).join(name);
-            write_if_changed(&path, text)?;
-            names.push(path.display().to_string());
-        }
+        let paths: Vec<PathBuf> = files.iter().map(|(name, _)| self.out.join(name)).collect();
+        let wanted: Vec<Wanted> =
+            paths.iter().zip(&files).map(|(path, (_, text))| (path.as_path(), text.as_str())).collect();
+        write_all(&wanted)?;
+        let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
         if self.json {
             return json(&Summary { claims: &claims, files: names });
         }

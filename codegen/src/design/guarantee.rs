@@ -10,6 +10,7 @@ use super::region::{cells, outside, reach, start, width};
 use super::{Problem, family};
 use crate::bounds::Rates;
 use crate::error::Error;
+use crate::number;
 use crate::spec::LawSpec;
 
 /// Halvings of the interval in which the largest initial error lies.
@@ -135,8 +136,10 @@ impl Parts<'_> {
         let chatter = course.ball(&load, true) + course.parameter_energy();
         if control.law.is_robust() && self.layer().is_none() && chatter > envelope.level {
             reasons.push(format!(
-                "the sign function, held for {} s, may raise V from {:.3e} J to {:.3e} J: take a boundary layer or a shorter period",
-                self.tuning.period, envelope.level, chatter
+                "the sign function, held for {} s, may raise V from {} J to {} J: take a boundary layer or a shorter period",
+                self.tuning.period,
+                number::short(envelope.level),
+                number::short(chatter)
             ));
         }
         let leaves = outside(domain, motion, arm, &envelope.position_error);

@@ -4,6 +4,7 @@ use super::Problem;
 use super::first_step::{Start, asked};
 use super::guarantee::Parts;
 use super::reach::Course;
+use crate::number::short;
 
 /// The longest period, s, and whether nothing in the domain is faster than it supposes.
 pub(super) struct Longest {
@@ -20,10 +21,11 @@ impl Parts<'_> {
             (!inertia_certified)
                 .then(|| format!("the bounds on D over the domain could not be certified: {narrow}")),
             (period >= most).then(|| {
-                format!("the period of {period} s is longer than the {most:.3e} s up to which the sampled loop is stable")
+                let most = short(most);
+                format!("the period of {period} s is longer than the {most} s up to which the sampled loop is stable")
             }),
             (!longest.certified)
-                .then(|| format!("the longest period of {most:.3e} s could not be certified over the domain: {narrow}")),
+                .then(|| format!("the longest period of {} s could not be certified over the domain: {narrow}", short(most))),
             self.feedforward.is_none().then(|| {
                 "without a motion nothing says how fast the torque changes that is held for a period".to_string()
             }),
@@ -72,7 +74,8 @@ impl Parts<'_> {
                 .is_some_and(|taken| taken.torque[number - 1] + friction(number - 1) >= limit);
             if asked >= limit && !said {
                 reasons.push(format!(
-                    "the initial errors may ask {asked:.4} of joint {number} in the first step, its torque limit is {limit}"
+                    "the initial errors may ask {} of joint {number} in the first step, its torque limit is {limit}",
+                    short(asked)
                 ));
             }
         }

@@ -39,6 +39,7 @@ use crate::error::{Error, Faults};
 use crate::lagrangian::Lagrangian;
 use crate::measure::Domain;
 use crate::motion::Motion;
+use crate::number::short;
 use crate::progress::{self, Progress};
 use crate::reduction::Regression;
 use crate::spec::{ControlSpec, CoriolisTermSpec, LawSpec, OnFaultSpec};
@@ -273,8 +274,9 @@ impl Design {
             faults.push(
                 "control.period",
                 format!(
-                    "is {} s, and the sampled loop is stable only below {:.4e} s",
-                    self.period, promised.period_max
+                    "is {} s, and the sampled loop is stable only below {} s",
+                    self.period,
+                    short(promised.period_max)
                 ),
                 format!(
                     "shorten it, lower W, {}widen the boundary layer, or set `control.allow_long_period` and lose the guarantee",
@@ -282,7 +284,7 @@ impl Design {
                 ),
             );
         } else if control.require_guarantee && !promised.holds {
-            let list = |x: &[f64]| x.iter().map(|e| format!("{e:.4}")).collect::<Vec<_>>().join(", ");
+            let list = |x: &[f64]| x.iter().map(|&e| short(e)).collect::<Vec<_>>().join(", ");
             let tube = match &promised.tube_needed {
                 Some(tube) => format!("a tube of at least ({})", list(tube)),
                 None => "other gains: no tube was found to be enough".to_string(),
@@ -295,7 +297,7 @@ impl Design {
                     promised
                         .initial_error_max
                         .iter()
-                        .map(|e| format!("{:.3e}", e * 0.9995))
+                        .map(|e| short(e * 0.9995))
                         .collect::<Vec<_>>()
                         .join(", ")
                 ),

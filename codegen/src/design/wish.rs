@@ -5,6 +5,7 @@ use super::search::{Candidate, Scene, Target};
 use super::{Stage, Tuning, checked};
 use crate::check::vector;
 use crate::error::{Error, Faults};
+use crate::number::short;
 use crate::progress;
 use crate::spec::{DesignSpec, VectorSpec};
 
@@ -167,7 +168,7 @@ fn too_narrow(
         None => {
             let (_, judged) = stage.judge(&nearest.tuning)?;
             let most = &judged.guarantee.initial_error_max;
-            let less = most.iter().map(|e| format!("{:.3e}", e * 0.9995)).collect::<Vec<_>>().join(", ");
+            let less = most.iter().map(|e| short(e * 0.9995)).collect::<Vec<_>>().join(", ");
             faults.push(
                 "control.design",
                 format!("cannot be met: errors may reach {}, beyond the measure", list(errors)),

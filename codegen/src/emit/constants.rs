@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::docs::functions;
 use super::literal::{count, matrix, vector};
-use super::{Module, spaced};
+use super::{Module, constant, spaced, unused};
 use crate::bounds::Bounds;
 use crate::error::Error;
 
@@ -14,6 +14,7 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
     let psi = functions(module.lagrangian, module.reduced);
     let xi = count(psi.len());
     let operations = module.code.operations();
+    let (unused, constant) = (unused(), constant());
     let counts = [
         ("MULTIPLICATIONS", operations.mul, " Multiplications in one passivity torque."),
         ("ADDITIONS", operations.add, " Additions, subtractions and negations in one passivity torque."),
@@ -23,6 +24,7 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
         let (name, number) = (Ident::new(name, Span::call_site()), count(number));
         quote! {
             #[doc = #doc]
+            #unused
             pub const #name: usize = #number;
         }
     });
@@ -31,15 +33,20 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
     let bounds = bounds(module.bounds)?;
     Ok(quote! {
         /// Number of joints n.
+        #unused
         pub const JOINTS: usize = #n;
         /// Number of kept functions; 0 for the exact model, also of an arm with other base parameters.
+        #unused
         pub const FUNCTIONS: usize = #xi;
         /// The kept functions, in the order of the model's documentation.
+        #unused
         pub const PSI: [&str; #xi] = [#(#psi),*];
         #(#counts)*
         /// Diagonal of B, N·m·s/rad or N·s/m.
+        #constant
         pub const VISCOUS_FRICTION: [f64; #n] = #viscous;
         /// ΔD, Δh, ΔB and ΔG, certified over the domain, and for all arms, that the model's documentation names.
+        #constant
         pub const BOUNDS: ::gramforge_runtime::Bounds<f64, #n> = #bounds;
     })
 }

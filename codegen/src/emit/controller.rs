@@ -4,7 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::literal::{count, float, matrix, vector};
-use super::{Module, docs, spaced};
+use super::{Module, constant, docs, spaced, unused};
 use crate::design::{Adaptation, Design};
 use crate::error::Error;
 use crate::motion::Motion;
@@ -12,9 +12,11 @@ use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec};
 
 pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, Error> {
     let n = count(module.arm.dof());
+    let (unused, constant) = (unused(), constant());
     let reference = module.motion.map(reference).transpose()?.map(|(kind, value)| {
         quote! {
             /// The desired motion.
+            #constant
             pub const REFERENCE: #kind = #value;
         }
     });
@@ -28,14 +30,19 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
     let final_error = vector(&promised.final_error)?;
     Ok(quote! {
         #(#[doc = #guaranteed_docs])*
+        #unused
         pub const GUARANTEED: bool = #guaranteed;
         /// Periods below this keep the sampled loop stable at every D of the domain, held still, s.
+        #constant
         pub const PERIOD_MAX: f64 = #period_max;
         /// What |q − q_d| ends below if [`GUARANTEED`], by joint, rad or m; means nothing otherwise.
+        #constant
         pub const FINAL_ERROR: [f64; #n] = #final_error;
         /// Period, torque limits and fault policy.
+        #constant
         pub const SETTINGS: ::gramforge_runtime::Settings<f64, #n> = #settings;
         /// The tracking law with its gains.
+        #constant
         pub const LAW: ::gramforge_runtime::#law_type = #law;
         #reference
 
@@ -43,6 +50,7 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
         ///
         /// # Errors
         /// None as generated; names the parameter if a constant above was edited into an impossible one.
+        #unused
         pub fn controller() -> ::core::result::Result<
             ::gramforge_runtime::Controller<#model, ::gramforge_runtime::#law_type, #n>,
             ::gramforge_runtime::ConfigError,
@@ -55,8 +63,8 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
 fn settings(design: &Design) -> Result<TokenStream, Error> {
     let period = float(design.period)?;
     let limit = |limit: &Option<f64>| match limit {
-        Some(limit) => float(*limit).map(|x| quote!(Some(#x))),
-        None => Ok(quote!(None)),
+        Some(limit) => float(*limit).map(|x| quote!(::core::option::Option::Some(#x))),
+        None => Ok(quote!(::core::option::Option::None)),
     };
     let limits = spaced(design.torque_limit.iter().map(limit).collect::<Result<Vec<_>, _>>()?);
     let on_fault = match design.on_fault {

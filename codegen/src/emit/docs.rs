@@ -1,12 +1,13 @@
 //! Words in a module: the header and the model's documentation.
 
 use super::Module;
-use crate::bounds::{Met, Torque, printed_down, printed_up};
+use crate::bounds::{Met, Torque, percent_up, printed_down, printed_up};
 use crate::design::Guarantee;
 use crate::lagrangian::{Coordinates, Lagrangian};
 use crate::measure::Domain;
 use crate::reduction::Reduced;
 use crate::sines::{Kind, Sines};
+use crate::text::escaped;
 
 /// Comments above a body of `size` bytes. Without time, path or machine, so that the same specification gives the same
 /// bytes.
@@ -156,7 +157,12 @@ fn uncertain(module: &Module) -> Vec<String> {
     let mut lines = vec![String::new(), follows.to_string(), String::new()];
     lines.extend(uncertainty.parameters.iter().map(|p| {
         let (low, high) = (p.nominal + p.low, p.nominal + p.high);
-        format!(" - `{}`, joint {}: {low} to {high}, {} as specified", p.name, p.joint + 1, p.nominal)
+        format!(
+            " - `{}`, joint {}: {low} to {high}, {} as specified",
+            escaped(&p.name),
+            p.joint + 1,
+            p.nominal
+        )
     }));
     let viscous =
         uncertainty.viscous.iter().zip(&arm.joints).enumerate().filter(|(_, (width, _))| **width > 0.0);
@@ -173,7 +179,7 @@ fn taken(sines: &Sines) -> Option<String> {
         Kind::Polynomial => "the runtime's polynomials".to_string(),
         Kind::Table(n) => format!("a table of {n} pairs"),
         Kind::Std => {
-            let way = "the platform's functions, whose bits differ between machines";
+            let way = "the platform's functions, whose bits differ between machines (feature `std` of gramforge-runtime)";
             return Some(format!(" Sines and cosines: {way}; the bounds suppose errors within 1 ulp."));
         }
     };
@@ -186,7 +192,7 @@ fn taken(sines: &Sines) -> Option<String> {
 
 /// Documentation of the guarantee, a line each.
 pub(super) fn guaranteed(guarantee: &Guarantee) -> Vec<String> {
-    let list = |x: &[f64]| x.iter().map(|e| format!("{e:.6}")).collect::<Vec<_>>().join(", ");
+    let list = |x: &[f64]| x.iter().map(|&e| printed_down(e)).collect::<Vec<_>>().join(", ");
     let mut lines = vec![
         " Whether the joints stay inside the domain of the bounds from every initial error specified, as long as the"
             .to_string(),
@@ -199,7 +205,7 @@ pub(super) fn guaranteed(guarantee: &Guarantee) -> Vec<String> {
     ];
     if !guarantee.holds {
         lines.extend([String::new(), " Not guaranteed, because:".to_string()]);
-        lines.extend(guarantee.reasons.iter().map(|reason| format!(" - {reason}")));
+        lines.extend(guarantee.reasons.iter().map(|reason| format!(" - {}", escaped(reason))));
     }
     lines
 }
@@ -250,11 +256,16 @@ pub(crate) fn met(met: Option<&Met>, controlled: bool) -> String {
 
 /// The certified torque error in one sentence; its digits are rounded up.
 pub(crate) fn torque(torque: &Torque) -> String {
+    let fraction = torque.fraction();
     format!(
-        "Certified torque error by joint: at most ({}) of a peak torque of ({}), that is {} % in the worst joint.",
+        "Certified torque error by joint: at most ({}) of a peak torque of ({}){}.",
         list(&torque.error),
         torque.peak.iter().map(|&p| printed_down(p)).collect::<Vec<_>>().join(", "),
-        printed_up(100.0 * torque.fraction())
+        if fraction.is_finite() {
+            format!(", that is {} in the worst joint", percent_up(fraction))
+        } else {
+            "; a percentage is not available, since a joint takes no torque".to_string()
+        }
     )
 }
 

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::literal::{count, vector};
-use super::{Module, spaced, statements};
+use super::{Module, constant, plain_numbers, spaced, statements, unused};
 use crate::error::Error;
 
 /// The impl of the runtime's `AdaptiveModel`; nothing for a law that does not learn.
@@ -33,9 +33,11 @@ pub(super) fn regression(module: &Module, model: &Ident) -> Result<TokenStream, 
         let (base, columns) = outputs.split_at(n.min(outputs.len()));
         (spaced(base.iter().cloned()), columns)
     };
+    let plain = plain_numbers();
     let columns = spaced(columns.chunks(n).map(|column| spaced(column.iter().cloned())));
     Ok(quote! {
         #[doc = #doc]
+        #plain
         impl ::gramforge_runtime::AdaptiveModel<#joints, #parameters> for #model {
             fn regression(&self, #inputs) -> ::gramforge_runtime::Regression<f64, #joints, #parameters> {
                 #(#statements)*
@@ -53,12 +55,16 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
     let number = count(adaptation.names.len());
     let names = &adaptation.names;
     let nominal = vector(&adaptation.initial)?;
+    let (unused, constant) = (unused(), constant());
     Ok(quote! {
         /// Number of parameters θ that the law learns.
+        #unused
         pub const PARAMETERS: usize = #number;
         /// What they stand for: what an uncertain number differs by from the arm's own, or a parameter of the model.
+        #unused
         pub const PARAMETER_NAMES: [&str; #number] = [#(#names),*];
         /// θ of the arm as specified.
+        #constant
         pub const NOMINAL_PARAMETERS: [f64; #number] = #nominal;
     })
 }

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::literal::{count, float};
-use super::spaced;
+use super::{constant, spaced};
 use crate::bounds::printed_up;
 use crate::error::Error;
 use crate::sines::{Kind, Sines};
@@ -29,14 +29,14 @@ pub(super) fn table(sines: &Sines) -> Result<TokenStream, Error> {
         Ok(quote!((#sin, #cos)))
     };
     let pairs = spaced(sines.pairs.iter().map(pair).collect::<Result<Vec<_>, _>>()?);
-    let n = count(n);
+    let (n, constant) = (count(n), constant());
     let doc = format!(
         " Sines and cosines of one turn; interpolated, none is off by more than {}.",
         printed_up(sines.error)
     );
     Ok(quote! {
         #[doc = #doc]
-        #[allow(clippy::approx_constant)]
+        #constant
         pub static SINES: ::gramforge_runtime::trig::Table<f64, #n> = ::gramforge_runtime::trig::Table::new(#pairs);
     })
 }

@@ -5,13 +5,14 @@ use std::fmt::Write as _;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-use super::{Loaded, named};
+use super::Loaded;
 use crate::error::{Error, Faults};
 
 /// SHA-256, in hexadecimal, of the specification and the files that it names.
 ///
 /// Spacing, the order of keys, defaults written out, number spellings (`5`, `5.0`) and where the file lies do not
-/// matter: what is hashed is the canonical form (keys sorted, as read) and, after it, length and bytes of each file.
+/// matter: what is hashed is the canonical form (keys sorted, as read) and, after it, length and bytes of each file, as
+/// they were read with the specification.
 ///
 /// # Errors
 /// [`Error::Input`] where a named file cannot be read.
@@ -22,15 +23,15 @@ pub fn spec_hash(loaded: &Loaded) -> Result<String, Error> {
     let mut hasher = Sha256::new();
     hasher.update(text.as_bytes());
     let mut faults = Faults::of(&loaded.path);
-    for (field, file) in named(&loaded.spec) {
-        match std::fs::read(loaded.resolve(file)) {
+    for named in &loaded.named {
+        match &named.content {
             Ok(bytes) => {
                 hasher.update((bytes.len() as u64).to_le_bytes());
-                hasher.update(&bytes);
+                hasher.update(bytes);
             }
             Err(error) => faults.push(
-                field,
-                format!("names {file:?}, which cannot be read ({error})"),
+                named.field,
+                format!("names {:?}, which cannot be read ({error})", named.name),
                 "write a path relative to the specification",
             ),
         }

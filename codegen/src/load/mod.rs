@@ -4,15 +4,19 @@
 
 mod hash;
 mod json;
+mod named;
+mod plain;
 mod structure;
 mod wording;
 
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Faults};
-use crate::spec::{MotionSpec, Spec};
+use crate::spec::Spec;
 
 pub use hash::spec_hash;
+pub use named::Named;
+pub use plain::plain;
 pub use structure::schema;
 
 /// A specification of the right shape and the files that it rests on.
@@ -25,6 +29,8 @@ pub struct Loaded {
     /// The specification and every file that it names, whether or not they can be read; a build
     /// script reruns when one of them changes.
     pub files: Vec<PathBuf>,
+    /// The named files with their bytes.
+    pub named: Vec<Named>,
 }
 
 impl Loaded {
@@ -50,14 +56,16 @@ pub fn load(path: &Path) -> Result<Loaded, Error> {
     parse(&text, path)
 }
 
-/// Reads a specification from `text`; `path` is the file that messages name and that relative paths start from.
+/// Reads a specification from `text`, and the files that it names; `path` is the file that messages name and that
+/// relative paths start from. A named file that cannot be read is told of where it is used.
 ///
 /// # Errors
 /// [`Error::Input`] with line and column where the text is not JSON, else with every field that is missing,
-/// unknown, repeated or of the wrong type.
+/// unknown, repeated, of the wrong type or a text with hidden characters (see [`plain`]).
 pub fn parse(text: &str, path: &Path) -> Result<Loaded, Error> {
     let mut faults = Faults::of(path);
     let Some(mut value) = json::read(text, &mut faults) else { return Err(faults.into_error()) };
+    plain::check(&value, &mut faults);
     structure::check(&value, &mut faults)?;
     if !faults.is_empty() {
         return Err(faults.into_error());
@@ -66,22 +74,10 @@ pub fn parse(text: &str, path: &Path) -> Result<Loaded, Error> {
     let spec: Spec = serde_json::from_value(value).map_err(|error| {
         Error::input(path, "", format!("does not fit the schema ({error})"), "compare it with the schema")
     })?;
-    let mut loaded = Loaded { spec, path: path.to_path_buf(), files: vec![path.to_path_buf()] };
-    let files: Vec<PathBuf> = named(&loaded.spec).iter().map(|(_, file)| loaded.resolve(file)).collect();
-    loaded.files.extend(files);
-    Ok(loaded)
-}
-
-/// The files that `spec` names, each with the field that names it.
-fn named(spec: &Spec) -> Vec<(&'static str, &str)> {
-    let mut out = Vec::new();
-    if let Some(file) = &spec.arm.urdf {
-        out.push(("arm.urdf", file.as_str()));
-    }
-    if let Some(MotionSpec::Csv { file }) = &spec.motion {
-        out.push(("motion.csv.file", file.as_str()));
-    }
-    out
+    let named = named::read(&spec, path);
+    let files =
+        [path.to_path_buf()].into_iter().chain(named.iter().map(|named| named.path.clone())).collect();
+    Ok(Loaded { spec, path: path.to_path_buf(), files, named })
 }
 
 #[cfg(test)]

@@ -238,16 +238,40 @@ fn the_hash_covers_named_files() {
     std::fs::create_dir_all(&folder).expect("a folder");
     let mut value = arm3();
     value["motion"] = json!({ "csv": { "file": "a.csv" } });
-    let loaded = parse(&value.to_string(), &folder.join("a.json")).expect("a specification");
-    let missing = spec_hash(&loaded).expect_err("a fault").to_string();
+    let loaded = || parse(&value.to_string(), &folder.join("a.json")).expect("a specification");
+    let missing = spec_hash(&loaded()).expect_err("a fault").to_string();
     assert!(missing.contains("motion.csv.file: names \"a.csv\", which cannot be read"), "{missing}");
     let with = |text: &str| {
         std::fs::write(folder.join("a.csv"), text).expect("a file");
-        spec_hash(&loaded).expect("a hash")
+        loaded()
     };
     let (one, two) = (with("t,q1\n0,0\n"), with("t,q1\n0,1\n"));
+    // Both are hashed after the file was gone: it is what was read that counts, for a pipe gives its bytes once.
     let _ = std::fs::remove_dir_all(&folder);
-    assert_ne!(one, two);
+    assert_ne!(spec_hash(&one).expect("a hash"), spec_hash(&two).expect("a hash"));
+}
+
+#[test]
+fn hidden_characters_are_refused_in_names_paths_and_keys() {
+    for hidden in
+        ["\n", "\r", "\t", "\0", "\x1b", "\x7f", "\u{85}", "\u{200f}", "\u{202e}", "\u{2028}", "\u{2069}"]
+    {
+        let word = format!("a{hidden}b");
+        let mut value = arm3();
+        value["name"] = json!(word);
+        value["motion"] = json!({ "csv": { "file": word } });
+        value["arm"]["joints"] = json!({ word: { "armature": 1.0 } });
+        let message = read(&value.to_string()).expect_err("a fault").to_string();
+        assert!(!message.chars().any(|c| c != '\n' && crate::text::is_hidden(c)), "{message:?}");
+        for field in ["name", "motion.csv.file", "arm.joints.a"] {
+            let line = message.lines().find(|line| line.contains(&format!(": {field}")));
+            assert!(
+                line.is_some_and(|line| line.contains("with the hidden character U+")),
+                "{field}: {message}"
+            );
+        }
+        assert_eq!(message.lines().count(), 3, "{message}");
+    }
 }
 
 #[test]

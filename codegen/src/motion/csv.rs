@@ -1,9 +1,8 @@
 //! Motions from a table `t,q1,…,qn`.
 
-use std::path::Path;
-
 use super::Spline;
 use crate::error::Faults;
+use crate::load::Named;
 
 /// Most faults told of one file: a wrong column otherwise fills the screen.
 const MOST_FAULTS: usize = 10;
@@ -11,8 +10,9 @@ const MOST_FAULTS: usize = 10;
 /// Reads a table of times, s, and positions, rad or m, one row an instant; a first line of words is skipped.
 /// The end velocities are those of the parabolas through the first and last three points.
 /// `None` after at least one fault was added.
-pub(super) fn read(path: &Path, dof: usize, faults: &mut Faults) -> Option<Spline> {
-    let text = match std::fs::read_to_string(path) {
+pub(super) fn read(table: &Named, dof: usize, faults: &mut Faults) -> Option<Spline> {
+    let path = table.path.as_path();
+    let text = match table.text() {
         Ok(text) => text,
         Err(error) => {
             faults.push(

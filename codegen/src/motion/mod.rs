@@ -6,11 +6,10 @@ mod limits;
 mod span;
 mod spline;
 
-use std::path::Path;
-
 use gramforge_runtime::reference::{Sinusoid, cubic, quintic, sinusoids};
 
 use crate::error::Faults;
+use crate::load::Loaded;
 use crate::spec::MotionSpec;
 
 pub use enclosure::Reach;
@@ -57,9 +56,9 @@ pub struct Target {
 }
 
 impl Motion {
-    /// The motion that `spec` describes; a CSV file is looked up beside the specification `faults` speaks of.
+    /// The motion that `spec` describes; `loaded` holds the CSV file that it may name.
     /// `None` after at least one fault was added.
-    pub fn from_spec(spec: &MotionSpec, dof: usize, faults: &mut Faults) -> Option<Self> {
+    pub fn from_spec(spec: &MotionSpec, dof: usize, loaded: &Loaded, faults: &mut Faults) -> Option<Self> {
         match spec {
             MotionSpec::Quintic { from, to, duration } => {
                 Some(Self::Quintic { from: from.clone(), to: to.clone(), duration: *duration })
@@ -78,8 +77,7 @@ impl Motion {
                 Some(Self::Sinusoids { offset: offset.clone(), terms, duration: *duration })
             }
             MotionSpec::Csv { file } => {
-                let path = faults.file().parent().unwrap_or(Path::new("")).join(file);
-                csv::read(&path, dof, faults).map(Self::Spline)
+                csv::read(&loaded.named("motion.csv.file", file), dof, faults).map(Self::Spline)
             }
         }
     }

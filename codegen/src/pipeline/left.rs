@@ -3,13 +3,14 @@
 use crate::arm::{Arm, Uncertainty};
 use crate::body::Form;
 use crate::bounds::{
-    Bounds, Certificate, Effort, Met, Rates, Torque, certified_telling, printed_up, published, reach,
+    Bounds, Certificate, Effort, Met, Rates, Torque, certified_telling, percent_up, published, reach,
     recursion, recursion_rounding, torque_error, with_sines,
 };
 use crate::lagrangian::Lagrangian;
 use crate::load::Loaded;
 use crate::measure::Domain;
 use crate::motion::Motion;
+use crate::number::percent;
 use crate::progress::Progress;
 use crate::reduction::Reduced;
 use crate::sines::Sines;
@@ -146,11 +147,11 @@ impl Left<'_> {
         let more = !self.uncertainty.parameters.is_empty() && torque.fraction() > fraction;
         more.then(|| {
             format!(
-                "{}: model: the tolerance of {} % is kept by the arm as specified; over all that is uncertain the \
-                 certified torque error is {} %",
+                "{}: model: the tolerance of {} is kept by the arm as specified; over all that is uncertain the \
+                 certified torque error is {}",
                 self.loaded.path.display(),
-                100.0 * fraction,
-                printed_up(100.0 * torque.fraction())
+                percent(100.0 * fraction),
+                percent_up(torque.fraction())
             )
         })
     }

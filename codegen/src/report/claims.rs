@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use super::grid::short;
 use super::law_name;
+use crate::number::short;
 use crate::simulate::{CONVERGED, Comparison, Run};
 
 /// The time within which the report's arm converges, s (its figure 4).

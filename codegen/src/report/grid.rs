@@ -42,20 +42,6 @@ impl Grid {
     }
 }
 
-/// `x` with four significant digits; powers of ten only where the number would run long.
-pub(crate) fn short(x: f64) -> String {
-    let size = x.abs();
-    if x == 0.0 {
-        "0".to_string()
-    } else if !(1e-3..1e5).contains(&size) {
-        format!("{x:.3e}")
-    } else {
-        let whole = [1.0, 10.0, 100.0, 1000.0].iter().filter(|&&power| size >= power).count();
-        let leading_zeros = [0.1, 0.01].iter().filter(|&&power| size < power).count();
-        format!("{x:.*}", 4 - whole + leading_zeros)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -67,22 +53,5 @@ mod tests {
         grid.push(["q2", "-20"]);
         let expected = "joint     τ (N·m)\n--------  -------\nshoulder      1.5\nq2            -20\n";
         assert_eq!(grid.render(), expected);
-    }
-
-    #[test]
-    fn numbers_have_four_digits() {
-        let cases = [
-            (0.0, "0"),
-            (0.06997, "0.06997"),
-            (0.5, "0.5000"),
-            (-12.345, "-12.35"),
-            (1963.2, "1963"),
-            (1.2e-5, "1.200e-5"),
-            (2e7, "2.000e7"),
-            (f64::INFINITY, "inf"),
-        ];
-        for (x, text) in cases {
-            assert_eq!(short(x), text);
-        }
     }
 }

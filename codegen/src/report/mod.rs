@@ -10,7 +10,6 @@ mod table;
 
 pub(crate) use claims::largest_difference;
 pub use claims::{Claim, claims};
-pub(crate) use grid::short;
 pub use plot::plot;
 pub use reproduction::{Figures, figures};
 pub use table::{bounds_table, claims_table, metrics_table, operations_table};

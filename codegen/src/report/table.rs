@@ -1,10 +1,11 @@
 //! Tables for the terminal.
 
-use super::grid::{Grid, short};
+use super::grid::Grid;
 use super::{Claim, law_name, position_unit, torque_unit};
 use crate::arm::{Joint, JointKind};
 use crate::bounds::Bounds;
 use crate::graph::Operations;
+use crate::number::short;
 use crate::simulate::{CONVERGED, Comparison, Metrics, Run};
 
 /// The metrics of both laws, joint by joint, then those of the whole arm.

@@ -1,7 +1,8 @@
 //! What section 4 claims, held against the runs.
 
 use super::{Cases, LoadedCases};
-use crate::report::{Claim, largest_difference, short};
+use crate::number::short;
+use crate::report::{Claim, largest_difference};
 use crate::simulate::{CONVERGED, Comparison, Run};
 
 /// The time within which the report's arm converges, s.

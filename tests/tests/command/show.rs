@@ -99,6 +99,46 @@ fn inspect_in_words() {
     assert!(shown.contains("11 functions, 9 distinct coefficients, 20 terms"), "{shown}");
 }
 
+/// `%` after a power of ten, or a word for what is no number.
+fn is_unreadable(line: &str) -> bool {
+    let words: Vec<&str> = line.split(|c: char| c.is_whitespace() || "(),;:[]".contains(c)).collect();
+    let power = |pair: &[&str]| pair[1] == "%" && pair[0].contains('e');
+    words.windows(2).any(power) || words.iter().any(|word| ["inf", "-inf", "NaN"].contains(word))
+}
+
+#[test]
+fn numbers_are_for_people() {
+    // Two links that hang and stay at rest: no torque at all, so that no error is a part of it.
+    let link = json!({ "joint": "revolute", "alpha": 0.0, "a": 1.0, "d": 0.0, "theta": 0.0, "mass": 1.0,
+        "com": [-0.4, 0.0, 0.0], "inertia": { "xx": 0.1, "yy": 0.1, "zz": 0.1 } });
+    let hanging = json!({
+        "name": "hanging",
+        "arm": { "gravity": [9.81, 0.0, 0.0], "dh": { "convention": "standard", "links": [link, link] } },
+        "motion": { "quintic": { "from": [0.0, 0.0], "to": [0.0, 0.0], "duration": 1.0 } },
+        "model": { "shared": { "functions": 1 } }
+    });
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, spec, words) in [
+        ("hanging", hanging, "a percentage is not available, since a joint takes no torque."),
+        ("arm3_xi2", value("arm3_xi2"), "that is 56.67 % in the worst joint."),
+        ("arm3_exact", value("arm3_exact"), "this is the exact model."),
+        ("arm3_adaptive", value("arm3_adaptive"), " % in the worst joint."),
+    ] {
+        let path = folder.path().join("arm.json");
+        fs::write(&path, spec.to_string()).expect("written");
+        let shown = run(["inspect", &text(&path)]).expect(0).stdout;
+        let out = text(folder.path());
+        let told = run(["generate", &text(&path), "--out", &out]).expect(0).stdout;
+        let module = fs::read_to_string(folder.path().join(format!("{name}.rs"))).expect("generated");
+        for sayer in [&shown, &told, &module] {
+            assert!(sayer.contains(words), "{words}: {sayer}");
+            let unreadable: Vec<&str> = sayer.lines().filter(|line| is_unreadable(line)).collect();
+            assert!(unreadable.is_empty(), "{name}: {unreadable:#?}");
+        }
+    }
+    assert!(is_unreadable("that is inf % of it") && is_unreadable("5.667e1 % in"));
+}
+
 fn simulated(edit: impl Fn(&mut Value)) -> Value {
     let folder = tempfile::tempdir().expect("a folder");
     let mut spec = value("arm3_xi2");

@@ -10,26 +10,28 @@ mod tree;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use urdf_rs::{Inertial, JointLimit, JointType};
+use urdf_rs::{Inertial, JointLimit, JointType, Robot};
 
 use super::body::Matrix;
 use super::drive::{Drive, drive, limits};
 use super::place::Place;
 use super::{Arm, Body, GRAVITY, Joint, JointKind, Limits, MOST_JOINTS, Transform, validate};
 use crate::error::Faults;
+use crate::load::{Named, plain};
 use crate::spec::{ArmSpec, LimitsSpec};
 use tree::{Role, Tree};
 
-/// The arm of the URDF `file` with the additions of `spec`, its rotations rounded by up to `angle` rad.
+/// The arm of the URDF file `named` with the additions of `spec`, its rotations rounded by up to `angle` rad.
 pub(super) fn build(
     spec: &ArmSpec,
     angle: f64,
-    file: &Path,
+    named: &Named,
     faults: &mut Faults,
     warnings: &mut Vec<String>,
 ) -> Option<Arm> {
     let before = faults.count();
-    let text = match std::fs::read_to_string(file) {
+    let file = named.path.as_path();
+    let text = match named.text() {
         Ok(text) => text,
         Err(error) => {
             let problem = format!("names {}, which cannot be read ({error})", file.display());
@@ -37,7 +39,7 @@ pub(super) fn build(
             return None;
         }
     };
-    let text = text::prepare(&text, file, faults);
+    let text = text::prepare(text, file, faults);
     if faults.count() > before {
         return None;
     }
@@ -49,6 +51,10 @@ pub(super) fn build(
             return None;
         }
     };
+    plain_names(&robot, file, faults);
+    if faults.count() > before {
+        return None;
+    }
     let tree = tree::tree(&robot, spec, file, faults)?;
     let bodies: BTreeMap<&str, Body> = robot
         .links
@@ -60,6 +66,15 @@ pub(super) fn build(
         .collect();
     let arm = assemble(&tree, &bodies, (spec, angle), file, faults, warnings)?;
     (faults.count() == before).then_some(arm)
+}
+
+/// Adds a fault for every name of a link or joint that holds hidden characters; references to them name no link then.
+fn plain_names(robot: &Robot, file: &Path, faults: &mut Faults) {
+    let links = robot.links.iter().map(|link| ("link", &link.name));
+    let joints = robot.joints.iter().map(|joint| ("joint", &joint.name));
+    for (kind, name) in links.chain(joints) {
+        plain(name, file, &format!("{kind}[{name}].name"), faults);
+    }
 }
 
 /// Where a link is: fixed in the moved frame of this joint (none: the base) at this pose.

@@ -4,6 +4,7 @@ use super::{ControlView, GuaranteeView, Inspection};
 use crate::bounds::{printed_down, printed_up};
 use crate::emit::{domain_in_words, met_in_words, rates_in_words, torque_in_words};
 use crate::graph::Operations;
+use crate::number::short;
 use crate::pipeline::Generation;
 use crate::spec::MatrixSpec;
 
@@ -52,7 +53,7 @@ pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
     }
     if let Some(control) = &view.control {
         lines.push(gains(control));
-        lines.push(format!("control: k* = {:.4}, V_max(0) = {:.4} J", control.k_star, control.v_max));
+        lines.push(format!("control: k* = {}, V_max(0) = {} J", short(control.k_star), short(control.v_max)));
         lines.push(format!(
             "largest errors: position ({}), velocity ({})",
             list(control.position_error),

@@ -1,0 +1,81 @@
+//! Inside a build script: what cargo is told, and which modules stand afterwards.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use super::modules::Modules;
+use super::{Config, Output};
+use crate::check::is_module_name;
+use crate::error::Error;
+use crate::load::Loaded;
+use crate::text::escaped;
+
+/// Generates the modules of `config` and writes directives for cargo to `out`; whether everything went well.
+pub(super) fn run(config: &Config, out: &mut impl Write) -> bool {
+    let loaded = config.load();
+    // Told before the work begins: they must stand, too, where it fails or is interrupted.
+    let told = watch(config, &loaded, out);
+    let names: Vec<String> = loaded.iter().filter_map(module_name).collect();
+    let result = config.folder().and_then(|folder| {
+        let modules = Modules::in_folder(&folder);
+        let written = config.build(loaded).and_then(|outputs| modules.publish(&outputs).map(|()| outputs));
+        written.inspect_err(|error| modules.spoil(&names, &error.to_string()))
+    });
+    let done = result.is_ok();
+    told.and_then(|()| conclude(result, out)).is_ok() && done
+}
+
+/// Tells cargo which files to watch.
+fn watch(config: &Config, loaded: &[Result<Loaded, Error>], out: &mut impl Write) -> io::Result<()> {
+    let mut watched = |path: &Path| directive(out, "cargo:rerun-if-changed=", &path.to_string_lossy());
+    for (spec, loaded) in config.specs.iter().zip(loaded) {
+        watched(spec)?;
+        // A faulty specification still names files whose mending must rerun the script.
+        for named in loaded.iter().flat_map(|loaded| &loaded.named) {
+            watched(&named.path)?;
+        }
+    }
+    Ok(())
+}
+
+/// Tells cargo warnings or faults.
+fn conclude(result: Result<Vec<Output>, Error>, out: &mut impl Write) -> io::Result<()> {
+    match result {
+        Ok(outputs) => {
+            for warning in outputs.iter().flat_map(|output| &output.generation.warnings) {
+                directive(out, "cargo:warning=", warning)?;
+            }
+        }
+        // With one colon cargo takes `error` for a word of somebody else's, and the build goes on.
+        Err(error) => {
+            for line in error.to_string().lines() {
+                directive(out, "cargo::error=", line)?;
+            }
+        }
+    }
+    out.flush()
+}
+
+/// One directive on one line, whatever `value` holds.
+fn directive(out: &mut impl Write, key: &str, value: &str) -> io::Result<()> {
+    writeln!(out, "{key}{}", escaped(value))
+}
+
+/// The module's name where the specification can be read and it is one.
+fn module_name(loaded: &Result<Loaded, Error>) -> Option<String> {
+    let name = &loaded.as_ref().ok()?.spec.name;
+    is_module_name(name).then(|| name.clone())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::directive;
+
+    #[test]
+    fn a_directive_never_becomes_two() {
+        let mut out = Vec::new();
+        directive(&mut out, "cargo:warning=", "a\ncargo:rustc-link-arg=x\r\u{2028}\u{202e}").unwrap();
+        let text = String::from_utf8(out).unwrap();
+        assert_eq!(text, "cargo:warning=a\\ncargo:rustc-link-arg=x\\r\\u{2028}\\u{202e}\n");
+    }
+}

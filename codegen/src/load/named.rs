@@ -1,0 +1,82 @@
+//! The files that a specification names, read once: what is hashed is what is used.
+
+use std::fs::File;
+use std::io::{Error, Read};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::Loaded;
+use crate::spec::{MotionSpec, Spec};
+
+/// Most bytes that are read of one file: a device may have no end.
+const MOST: u64 = 1 << 28;
+
+/// A file that a specification names, with the bytes that it held when the specification was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named {
+    /// The field that names it, such as `arm.urdf`.
+    pub field: &'static str,
+    /// The path as the specification writes it.
+    pub name: String,
+    /// The path from the working directory.
+    pub path: PathBuf,
+    /// Its bytes, or why they could not be read.
+    pub content: Result<Arc<[u8]>, String>,
+}
+
+impl Named {
+    /// The content as text.
+    ///
+    /// # Errors
+    /// Why the file could not be read, or that it is not UTF-8.
+    pub fn text(&self) -> Result<&str, String> {
+        let bytes = self.content.as_ref().map_err(String::clone)?;
+        std::str::from_utf8(bytes).map_err(|error| format!("it is not UTF-8 text: {error}"))
+    }
+}
+
+impl Loaded {
+    /// The file that `field` names as `name`; one that was not read with the specification has no content.
+    pub fn named(&self, field: &'static str, name: &str) -> Named {
+        let known = self.named.iter().find(|named| named.field == field && named.name == name);
+        known.cloned().unwrap_or_else(|| Named {
+            field,
+            name: name.to_string(),
+            path: self.resolve(name),
+            content: Err("the specification named another file when it was read".to_string()),
+        })
+    }
+}
+
+/// Reads every file that `spec`, itself in the file `path`, names.
+pub(super) fn read(spec: &Spec, path: &Path) -> Vec<Named> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let read = |(field, name): (&'static str, &str)| {
+        let path = folder.join(name);
+        let content = bytes(&path).map(Arc::from).map_err(|error| error.to_string());
+        Named { field, name: name.to_string(), path, content }
+    };
+    fields(spec).into_iter().map(read).collect()
+}
+
+/// What stands in the file at `path`, if that is not too much.
+fn bytes(path: &Path) -> Result<Vec<u8>, Error> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(MOST + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MOST {
+        return Err(Error::other(format!("it has more than {} MiB", MOST >> 20)));
+    }
+    Ok(bytes)
+}
+
+/// The names of files in `spec`, each with its field.
+fn fields(spec: &Spec) -> Vec<(&'static str, &str)> {
+    let mut out = Vec::new();
+    if let Some(file) = &spec.arm.urdf {
+        out.push(("arm.urdf", file.as_str()));
+    }
+    if let Some(MotionSpec::Csv { file }) = &spec.motion {
+        out.push(("motion.csv.file", file.as_str()));
+    }
+    out
+}

@@ -1,0 +1,78 @@
+//! Numbers as people read them, in messages, documentation and tables.
+
+/// What stands where there is no number.
+const NONE: &str = "not available";
+
+/// `x` with four significant digits; powers of ten only where the number would run long.
+pub fn short(x: f64) -> String {
+    let size = x.abs();
+    if !x.is_finite() {
+        NONE.to_string()
+    } else if x == 0.0 {
+        "0".to_string()
+    } else if !(1e-3..1e5).contains(&size) {
+        format!("{x:.3e}")
+    } else {
+        let whole = [1.0, 10.0, 100.0, 1000.0].iter().filter(|&&power| size >= power).count();
+        let leading_zeros = [0.1, 0.01].iter().filter(|&&power| size < power).count();
+        format!("{x:.*}", 4 - whole + leading_zeros)
+    }
+}
+
+/// A percentage `x` ≥ 0 with four significant digits and without powers of ten, such as `56.67 %`. A very small one is
+/// only said to be small.
+pub fn percent(x: f64) -> String {
+    if !x.is_finite() {
+        NONE.to_string()
+    } else if x > 0.0 && x < 1e-3 {
+        "less than 0.001 %".to_string()
+    } else if x >= 1e5 {
+        "more than 100000 %".to_string()
+    } else {
+        let digits = short(x);
+        let digits =
+            if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { &digits };
+        format!("{digits} %")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_four_digits() {
+        let cases = [
+            (0.0, "0"),
+            (0.06997, "0.06997"),
+            (0.5, "0.5000"),
+            (-12.345, "-12.35"),
+            (1963.2, "1963"),
+            (1.2e-5, "1.200e-5"),
+            (2e7, "2.000e7"),
+            (f64::INFINITY, "not available"),
+            (f64::NAN, "not available"),
+        ];
+        for (x, text) in cases {
+            assert_eq!(short(x), text);
+        }
+    }
+
+    #[test]
+    fn percentages_are_plain() {
+        let cases = [
+            (0.0, "0 %"),
+            (1e-9, "less than 0.001 %"),
+            (0.0125, "0.0125 %"),
+            (1.0, "1 %"),
+            (56.67, "56.67 %"),
+            (100.0, "100 %"),
+            (2.5e7, "more than 100000 %"),
+            (f64::INFINITY, "not available"),
+            (f64::NAN, "not available"),
+        ];
+        for (x, text) in cases {
+            assert_eq!(percent(x), text);
+        }
+    }
+}
