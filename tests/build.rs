@@ -13,6 +13,7 @@ fn main() {
         "puma3_union",
         "puma3_tolerance",
         "stanford_tolerance",
+        "follower",
     ];
     let config =
         specs.iter().fold(gramforge::Config::new(), |config, name| config.spec(format!("data/{name}.json")));

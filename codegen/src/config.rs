@@ -8,8 +8,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::bounds::Effort;
+use crate::check::read;
 use crate::error::{Error, Faults, Stale};
-use crate::load::{Loaded, load};
+use crate::load::Loaded;
 use crate::output::{Wanted, is_current, write_all};
 use crate::pipeline::Generation;
 use crate::progress::{Progress, Silent, Titled};
@@ -137,7 +138,7 @@ impl Config {
 
     /// Reads every specification, with the files that it names, once.
     fn load(&self) -> Vec<Result<Loaded, Error>> {
-        self.specs.iter().map(|spec| load(spec)).collect()
+        self.specs.iter().map(|spec| read(spec)).collect()
     }
 
     fn build(&self, loaded: Vec<Result<Loaded, Error>>) -> Result<Vec<Output>, Error> {

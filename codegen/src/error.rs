@@ -5,11 +5,16 @@ use std::path::{Path, PathBuf};
 
 use crate::text::escaped;
 
+/// Most faults that an error tells one by one: a generated file may hold thousands of the same kind.
+pub const MOST_TOLD: usize = 100;
+
 /// One thing wrong with the input. Shown, it takes one line, whatever it holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// The file it stands in.
     pub file: PathBuf,
+    /// The line of that file, from 1; `None` where the field says enough.
+    pub line: Option<usize>,
     /// Path of the field inside the file, such as `arm.dh.links[1].mass`; empty where the whole file is meant.
     pub field: String,
     /// What is wrong, with the offending value.
@@ -20,12 +25,21 @@ pub struct Fault {
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", escaped(&self.file.to_string_lossy()))?;
-        if !self.field.is_empty() {
-            write!(f, ": {}", escaped(&self.field))?;
-        }
-        write!(f, ": {}; {}", escaped(&self.problem), escaped(&self.mend))
+        let place = located(&self.file, self.line, &self.field);
+        write!(f, "{}: {}; {}", escaped(&place), escaped(&self.problem), escaped(&self.mend))
     }
+}
+
+/// A place in words: `file: field`, or `file:line: field` where the line is known.
+pub(crate) fn located(file: &Path, line: Option<usize>, field: &str) -> String {
+    let mut out = file.display().to_string();
+    if let Some(line) = line {
+        out.push_str(&format!(":{line}"));
+    }
+    if !field.is_empty() {
+        out.push_str(&format!(": {field}"));
+    }
+    out
 }
 
 /// Collects faults so that a user sees all of them at once.
@@ -60,17 +74,40 @@ impl Faults {
         problem: impl Into<String>,
         mend: impl Into<String>,
     ) {
+        self.push_at(file, None, field, problem, mend);
+    }
+
+    /// Adds a fault in line `line`, where that is known, of another file.
+    pub fn push_at(
+        &mut self,
+        file: &Path,
+        line: Option<usize>,
+        field: impl Into<String>,
+        problem: impl Into<String>,
+        mend: impl Into<String>,
+    ) {
         self.list.push(Fault {
             file: file.to_path_buf(),
+            line,
             field: field.into(),
             problem: problem.into(),
             mend: mend.into(),
         });
     }
 
+    /// Adds faults found elsewhere.
+    pub fn extend(&mut self, more: impl IntoIterator<Item = Fault>) {
+        self.list.extend(more);
+    }
+
     /// True while nothing is wrong.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
+    }
+
+    /// The faults so far, in the order in which they were found.
+    pub fn list(&self) -> &[Fault] {
+        &self.list
     }
 
     /// Number of faults so far.
@@ -142,6 +179,9 @@ fn stale(files: &[Stale]) -> String {
 }
 
 fn list(faults: &[Fault]) -> String {
-    let lines: Vec<String> = faults.iter().map(Fault::to_string).collect();
+    let mut lines: Vec<String> = faults.iter().take(MOST_TOLD).map(Fault::to_string).collect();
+    if let Some(more) = faults.len().checked_sub(MOST_TOLD).filter(|more| *more > 0) {
+        lines.push(format!("and {more} more"));
+    }
     lines.join("\n")
 }

@@ -24,20 +24,20 @@ pub enum Domain {
 
 impl Domain {
     /// Positions that stand for all: every function is periodic in a revolute joint's angle, so that of a workspace wider
-    /// than `turns` ≥ 1 of it one turn, the nearest to 0, is enough.
+    /// than `turns` ≥ 1 periods of it one, the nearest to 0, is enough.
     #[must_use]
     pub fn within_a_turn(&self, arm: &Arm, turns: f64) -> Self {
         let Self::Workspace(limits) = self else { return self.clone() };
-        let turn = std::f64::consts::TAU;
-        let within = |(&[low, high], joint): (&[f64; 2], &Joint)| match joint.kind {
-            JointKind::Revolute if high - low > turns * turn => {
-                let from = (-0.5 * turn).clamp(low, high - turn);
-                // A few ulps more, for the rounding of 2π and of the sum.
-                [from, high.min(from + turn + 4.0 * f64::EPSILON * (turn + from.abs()))]
-            }
-            _ => [low, high],
-        };
-        Self::Workspace(limits.iter().zip(&arm.joints).map(within).collect())
+        let within =
+            |(j, (&[low, high], joint)): (usize, (&[f64; 2], &Joint))| match (joint.kind, arm.period(j)) {
+                (JointKind::Revolute, turn) if high - low > turns * turn => {
+                    let from = (-0.5 * turn).clamp(low, high - turn);
+                    // A few ulps more, for the rounding of 2π and of the sum.
+                    [from, high.min(from + turn + 4.0 * f64::EPSILON * (turn + from.abs()))]
+                }
+                _ => [low, high],
+            };
+        Self::Workspace(limits.iter().zip(&arm.joints).enumerate().map(within).collect())
     }
 }
 

@@ -3,6 +3,7 @@
 mod angles;
 mod left;
 mod model;
+mod threads;
 mod verdict;
 
 use std::path::Path;
@@ -10,14 +11,14 @@ use std::path::Path;
 use crate::arm::{Arm, Built, JointKind, Uncertainty, indefinite, indefinite_among};
 use crate::body::{self, Form, Regressor};
 use crate::bounds::{Bounds, Certificate, Effort, Met, Torque, reach, rounded_angles};
-use crate::check::{examine, vector};
+use crate::check::{examine, model, read, vector};
 use crate::design::{Design, Problem, checked, design};
 use crate::dynamics::mass_matrix;
 use crate::emit::{Module, emit};
 use crate::error::{Error, Faults};
 use crate::graph::Graph;
 use crate::lagrangian::{Lagrangian, expand_family};
-use crate::load::{Loaded, load, spec_hash};
+use crate::load::{Loaded, spec_hash};
 use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::progress::{Progress, Silent, Stage};
@@ -37,6 +38,10 @@ const POSITIONS: usize = 512;
 
 /// The same for each vertex of the uncertain parameters' box.
 const VERTEX_POSITIONS: usize = 64;
+
+/// Pieces of a motion from which on the module's size is told, and what one of one joint adds to its text, bytes.
+const LONG_MOTION: usize = 2_000;
+const BYTES_A_PIECE: usize = 80;
 
 /// Everything that follows from one specification.
 ///
@@ -90,7 +95,7 @@ impl Generation {
     /// # Errors
     /// [`Error::Input`] with all faults of the specification and the files that it names.
     pub fn from_file(path: &Path) -> Result<Self, Error> {
-        Self::new(load(path)?)
+        Self::new(read(path)?)
     }
 
     /// Runs every stage.
@@ -114,16 +119,37 @@ impl Generation {
     /// # Errors
     /// As [`Generation::from_file`].
     pub fn with_progress(loaded: Loaded, effort: &Effort, progress: &dyn Progress) -> Result<Self, Error> {
+        Self::staged(loaded, effort, progress, true)
+    }
+
+    /// The model alone: as [`Generation::with_progress`], but gains, guarantee and whether D can be inverted are not
+    /// looked at, and [`Generation::design`] is `None`.
+    ///
+    /// # Errors
+    /// As [`Generation::from_file`].
+    pub fn model(loaded: Loaded, effort: &Effort, progress: &dyn Progress) -> Result<Self, Error> {
+        Self::staged(loaded, effort, progress, false)
+    }
+
+    fn staged(loaded: Loaded, effort: &Effort, progress: &dyn Progress, looped: bool) -> Result<Self, Error> {
+        threads::check()?;
         let mut faults = Faults::of(&loaded.path);
-        let (built, motion) = examine(&loaded, &mut faults);
+        let (built, motion) =
+            if looped { examine(&loaded, &mut faults) } else { model(&loaded, &mut faults) };
         let Some(Built { arm, uncertainty, given, uncertain, mut warnings }) = built else {
             return Err(faults.into_error());
         };
         let spec = &loaded.spec;
-        if let Some(state) = indefinite(&arm, |q| mass_matrix(&arm, q)) {
-            state.report(&mut faults);
+        let control = spec.control.as_ref().filter(|_| looped);
+        // A motion's domain is looked at below, where its points are known; the joints' limits may reach far beyond it.
+        if control.is_some()
+            && is_workspace(spec)
+            && let Some(state) = indefinite(&arm, |q| mass_matrix(&arm, q))
+        {
+            state.report(&arm, &mut faults);
             return Err(faults.into_error());
         }
+        warnings.extend(motion.as_ref().and_then(|motion| long(&loaded, motion)));
         let stage = Stage::new(progress, "expansion", 1);
         let lagrangian = expand_family(&arm, &uncertainty);
         drop(stage);
@@ -144,16 +170,16 @@ impl Generation {
             Err(faults.into_error())
         };
         // The domain may hold states that the look at the limits has missed, such as a wrist stretched out.
-        let stride = measure.points.len().div_ceil(POSITIONS).max(1);
-        let positions = measure.points.iter().step_by(stride);
-        if let Some(state) = indefinite_among(positions, |q| mass_matrix(&arm, q)) {
-            return refused(&|faults| state.report(faults));
+        let seen = |most: usize| {
+            let stride = measure.points.len().div_ceil(most).max(1);
+            measure.points.iter().step_by(stride).filter(|_| control.is_some())
+        };
+        if let Some(state) = indefinite_among(seen(POSITIONS), |q| mass_matrix(&arm, q)) {
+            return refused(&|faults| state.report(&arm, faults));
         }
-        let stride = measure.points.len().div_ceil(VERTEX_POSITIONS).max(1);
         for u in uncertainty.vertices() {
             let member = uncertainty.at(&arm, &u);
-            let positions = measure.points.iter().step_by(stride);
-            if let Some(state) = indefinite_among(positions, |q| mass_matrix(&member, q)) {
+            if let Some(state) = indefinite_among(seen(VERTEX_POSITIONS), |q| mass_matrix(&member, q)) {
                 return refused(&|faults| state.report_member(&uncertainty, &u, faults));
             }
         }
@@ -236,9 +262,7 @@ impl Generation {
                 faults.push("measure", "reaches states at which the model overflows", mend)
             });
         }
-        let design = spec
-            .control
-            .as_ref()
+        let design = control
             .map(|control| {
                 design(&Problem {
                     file: &loaded.path,
@@ -318,6 +342,21 @@ impl Generation {
     }
 }
 
+/// What is said of a motion of many pieces: all of them stand in the module.
+fn long(loaded: &Loaded, motion: &Motion) -> Option<String> {
+    let pieces = match motion {
+        Motion::Spline(spline) => spline.pieces.len(),
+        Motion::Quintic { .. } | Motion::Sinusoids { .. } => 0,
+    };
+    (pieces > LONG_MOTION).then(|| {
+        let size = pieces * motion.dof() * BYTES_A_PIECE / 1_000_000;
+        format!(
+            "{}: motion: has {pieces} pieces, which make the module about {size} MB long; fewer rows give a smaller one",
+            loaded.path.display()
+        )
+    })
+}
+
 /// Faults where the domain holds angles for which the sines chosen promise nothing.
 fn check_angles(sines: &Sines, reach: &[f64], arm: &Arm, faults: &mut Faults) {
     let turning = arm.joints.iter().zip(reach).filter(|(joint, _)| joint.kind == JointKind::Revolute);
@@ -328,6 +367,10 @@ fn check_angles(sines: &Sines, reach: &[f64], arm: &Arm, faults: &mut Faults) {
             "write \"libm\", or correct the motion or the limits",
         );
     }
+}
+
+fn is_workspace(spec: &Spec) -> bool {
+    matches!((&spec.measure, &spec.motion), (Some(MeasureSpec::Workspace), _) | (None, None))
 }
 
 fn domain(spec: &Spec, arm: &Arm) -> Result<Domain, Error> {

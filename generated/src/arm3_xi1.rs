@@ -11,7 +11,7 @@
 ///
 /// The exact model costs 48 multiplications, 32 additions, 2 sine-cosine pairs: reducing pays here: the reduced one saves 34 of 80 operations.
 ///
-/// Certified torque error by joint: at most (6.546e-1, 1.233e1, 1.951e-1) of a peak torque of (9.432e-1, 4.279e1, 1.099e1), that is 6.940e1 % in the worst joint. It holds for speeds up to (5.626e-1, 3.376e-1, 3.751e-1) and accelerations up to (3.465e-1, 2.079e-1, 2.310e-1). The peak torque is the largest that a search found within them, so the true one is no smaller.
+/// Certified torque error by joint: at most (6.546e-1, 1.233e1, 1.951e-1) of a peak torque of (9.432e-1, 4.279e1, 1.099e1), that is 69.4 % in the worst joint. It holds for speeds up to (5.626e-1, 3.376e-1, 3.751e-1) and accelerations up to (3.465e-1, 2.079e-1, 2.310e-1). The peak torque is the largest that a search found within them, so the true one is no smaller.
 ///
 /// Torque error that the law meets by joint, its feedback included: at most (7.784e1, 6.754e1, 2.040e1) inside the domain, for speeds up to (8.067e0, 5.238e0, 8.917e0), reference speeds up to (4.315e0, 2.788e0, 4.646e0) and reference accelerations up to (3.037e1, 1.981e1, 3.440e1).
 ///

@@ -1,5 +1,6 @@
 //! What the integration tests in `tests/` share: arms, reference values, random states.
 
+pub mod chain;
 pub mod double;
 pub mod oracle;
 pub mod random;

@@ -9,8 +9,12 @@ use crate::spread::{Spread, corner, in_box};
 /// Samples inside the box, beside its corners.
 const SAMPLES: usize = 512;
 
-/// λ_min(D) must exceed this part of the largest diagonal entry.
+/// The smallest eigenvalue of D, with rows and columns scaled so that its diagonal is 1, must exceed this: metres beside
+/// radians, and a long rail beside a wrist, are no reason to doubt an arm.
 const LEAST: f64 = 1e-9;
+
+/// A diagonal entry below this part of the largest one, where that is smallest, is rounding.
+const NOTHING: f64 = 1e-12;
 
 /// A state in which D(q) is not safely positive definite.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,18 +25,22 @@ pub struct Indefinite {
     pub eigenvalue: f64,
     /// Largest diagonal entry of D(q), kg·m².
     pub scale: f64,
+    /// The joint that moves least there, from 0.
+    pub joint: usize,
 }
 
 impl Indefinite {
     /// Adds this as a fault of the field `arm`.
-    pub fn report(&self, faults: &mut Faults) {
+    pub fn report(&self, arm: &Arm, faults: &mut Faults) {
+        let name = arm.joints.get(self.joint).map_or("", |joint| joint.name.as_str());
         faults.push(
             "arm",
             format!(
-                "has the inertia matrix D(q) with the smallest eigenvalue {:.3e} (largest entry {:.3e} kg·m²) at q = {:?}",
+                "has the inertia matrix D(q) with the smallest eigenvalue {:.3e} (largest entry {:.3e} kg·m²) at q = {:?}: \
+                 the joint {name} moves next to no mass there",
                 self.eigenvalue, self.scale, self.q
             ),
-            "give every joint some inertia: check the masses, or add `armature` to joints that move no mass",
+            format!("give every joint some inertia: check the masses behind {name}, or add `armature` to it"),
         );
     }
 
@@ -54,7 +62,7 @@ impl Indefinite {
 }
 
 /// The first state, among the corners of the joint limits and a fixed low-discrepancy sequence inside them, at which
-/// `mass_matrix` (n×n, by rows) fails the Cholesky factorisation or has λ_min ≤ 1e-9 of its largest diagonal entry.
+/// `mass_matrix` (n×n, by rows) is not safely positive definite, as [`indefinite_among`] judges it.
 ///
 /// Where limits are unknown the box is [−π, π] rad or [−1, 1] m. A sample, not a proof.
 pub fn indefinite(arm: &Arm, mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>) -> Option<Indefinite> {
@@ -63,29 +71,54 @@ pub fn indefinite(arm: &Arm, mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>) -> O
     let spread = Spread::new(n);
     let units =
         (0..SAMPLES).map(|index| spread.point(index)).chain((0..1 << n).map(|index| corner(index, n)));
-    units.map(|unit| in_box(&limits, &unit)).find_map(|q| judge(&mass_matrix(&q), q))
+    let positions: Vec<Vec<f64>> = units.map(|unit| in_box(&limits, &unit)).collect();
+    indefinite_among(&positions, mass_matrix)
 }
 
-/// The first of `positions` at which `mass_matrix` fails as in [`indefinite`].
+/// The first of `positions` at which `mass_matrix` is not safely positive definite: it holds a number that is not finite,
+/// moves a joint with no more inertia than rounding, fails the Cholesky factorisation, or has an eigenvalue of at most
+/// 1e-9 once its diagonal is scaled to 1.
 pub fn indefinite_among<'a>(
     positions: impl IntoIterator<Item = &'a Vec<f64>>,
     mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>,
 ) -> Option<Indefinite> {
-    positions.into_iter().find_map(|q| judge(&mass_matrix(q), q.clone()))
+    let matrices: Vec<(&Vec<f64>, DMatrix<f64>)> =
+        positions.into_iter().map(|q| (q, dense(&mass_matrix(q)))).collect();
+    let largest = |d: &DMatrix<f64>| d.diagonal().iter().copied().fold(0.0, f64::max);
+    let scale = matrices.iter().map(|(_, d)| largest(d)).fold(f64::INFINITY, f64::min);
+    matrices.iter().find_map(|(q, d)| judge(d, q, NOTHING * scale, largest(d)))
 }
 
-fn judge(d: &[Vec<f64>], q: Vec<f64>) -> Option<Indefinite> {
+fn dense(d: &[Vec<f64>]) -> DMatrix<f64> {
     let n = d.len();
-    let entry = |i: usize, j: usize| d.get(i).and_then(|row| row.get(j)).copied().unwrap_or(f64::NAN);
-    let matrix = DMatrix::from_fn(n, n, entry);
-    let scale = (0..n).map(|i| entry(i, i)).fold(0.0, f64::max);
+    DMatrix::from_fn(n, n, |i, j| d.get(i).and_then(|row| row.get(j)).copied().unwrap_or(f64::NAN))
+}
+
+/// `floor` is what a diagonal entry must exceed.
+fn judge(matrix: &DMatrix<f64>, q: &[f64], floor: f64, scale: f64) -> Option<Indefinite> {
+    let n = matrix.nrows();
+    let diagonal = matrix.diagonal();
+    let least = (0..n).min_by(|&i, &j| diagonal[i].total_cmp(&diagonal[j])).unwrap_or(0);
+    let found = |eigenvalue: f64, joint: usize| Indefinite { q: q.to_vec(), eigenvalue, scale, joint };
     // The eigenvalue iteration need not end on NaN.
     if !matrix.iter().all(|v| v.is_finite()) {
-        return Some(Indefinite { q, eigenvalue: f64::NAN, scale });
+        return Some(found(f64::NAN, least));
     }
-    let eigenvalue = matrix.symmetric_eigenvalues().iter().copied().fold(f64::INFINITY, f64::min);
-    let definite = matrix.cholesky().is_some() && eigenvalue > LEAST * scale;
-    (!definite).then_some(Indefinite { q, eigenvalue, scale })
+    if (0..n).any(|i| diagonal[i] <= floor) {
+        return Some(found(matrix.symmetric_eigenvalues().min(), least));
+    }
+    let roots: Vec<f64> = diagonal.iter().map(|&d| libm::sqrt(d)).collect();
+    let scaled = DMatrix::from_fn(n, n, |i, j| matrix[(i, j)] / roots[i] / roots[j]);
+    let whole = scaled.clone().symmetric_eigen();
+    let lowest = (0..n).min_by(|&i, &j| whole.eigenvalues[i].total_cmp(&whole.eigenvalues[j])).unwrap_or(0);
+    let definite = scaled.cholesky().is_some() && whole.eigenvalues[lowest] > LEAST;
+    if definite {
+        return None;
+    }
+    let part = |i: usize| whole.eigenvectors[(i, lowest)].abs();
+    // Where several take part alike, the last one: it carries least.
+    let joint = (0..n).max_by(|&i, &j| part(i).total_cmp(&part(j))).unwrap_or(least);
+    Some(found(matrix.symmetric_eigenvalues().min(), joint))
 }
 
 #[cfg(test)]
@@ -105,7 +138,7 @@ mod tests {
             coulomb_friction: [0.0; 2],
             limits: Limits { position: Some([-1.0, 2.0]), ..Limits::default() },
         };
-        Arm { gravity: [0.0; 3], joints: vec![joint.clone(), joint], tip: Transform::IDENTITY }
+        Arm { gravity: [0.0; 3], joints: vec![joint.clone(), joint], tip: Transform::IDENTITY, linkage: None }
     }
 
     #[test]
@@ -121,7 +154,7 @@ mod tests {
     fn not_finite_matrices_end_in_a_fault() {
         let found = indefinite(&arm(), |_| vec![vec![f64::NAN, 0.0], vec![0.0, 1.0]]).expect("NaN");
         let mut faults = Faults::of(std::path::Path::new("a.json"));
-        found.report(&mut faults);
+        found.report(&arm(), &mut faults);
         assert!(faults.into_error().to_string().starts_with("a.json: arm: has the inertia matrix"));
     }
 }

@@ -35,7 +35,7 @@ pub(super) fn build(
         let (before, after) = around(table.convention, link, angle);
         let body = body(link, &place, faults);
         if let Some((body, field)) = &body {
-            validate::body(body, field, &place, faults, warnings);
+            validate::body(body, &place.at(field), &place, faults, warnings);
         }
         complete &= body.is_some();
         let drive = drive(&of_link(link), link.joint, &place, faults);
@@ -52,7 +52,7 @@ pub(super) fn build(
         });
         from = after;
     }
-    complete.then_some(Arm { gravity: GRAVITY, joints, tip: from })
+    complete.then_some(Arm { gravity: GRAVITY, joints, tip: from, linkage: None })
 }
 
 /// What stands before the motion and what after it in a link's transform.

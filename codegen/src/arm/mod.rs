@@ -8,6 +8,7 @@ mod drive;
 mod frames;
 mod inertial;
 mod intervals;
+mod linkage;
 mod place;
 mod round;
 mod transform;
@@ -20,6 +21,7 @@ pub(crate) use base_parameters::{Along, Kept, Mass, Offset};
 pub use definite::{Indefinite, indefinite, indefinite_among};
 pub(crate) use frames::Origin;
 pub use inertial::{Inertial, Quantity};
+pub use linkage::{Coupling, Linkage};
 pub(crate) use round::{NOISE, distance};
 pub use transform::Transform;
 pub use uncertainty::{MOST_PARAMETERS, Parameter, Uncertainty};
@@ -39,10 +41,13 @@ use place::Place;
 pub struct Arm {
     /// Acceleration of gravity in the base frame, m/s².
     pub gravity: [f64; 3],
-    /// The joints, base first.
+    /// The joints, base first: those that have a coordinate of their own. Where others follow them, all bodies stand in
+    /// [`Arm::linkage`].
     pub joints: Vec<Joint>,
     /// Pose of the tip frame in the last joint's moved frame.
     pub tip: Transform,
+    /// The whole chain, where some of its joints follow others.
+    pub linkage: Option<Box<Linkage>>,
 }
 
 /// One joint with the body it moves.
@@ -175,11 +180,15 @@ impl Arm {
         if let Some(gravity) = spec.gravity {
             arm.gravity = gravity;
         }
-        if let (Some(payload), Some(last)) = (payload, arm.joints.last_mut()) {
-            last.body = last.body.plus(&payload.moved(&arm.tip));
+        if let Some(linkage) = &mut arm.linkage {
+            linkage.chain.gravity = arm.gravity;
+        }
+        let tip = arm.tip;
+        if let (Some(payload), Some(last)) = (payload, arm.last_moving()) {
+            last.body = last.body.plus(&payload.moved(&tip));
         }
         let sane = |t: &Transform| t.translation.iter().all(|v| v.is_finite());
-        if !arm.joints.iter().all(|j| j.body.is_finite() && sane(&j.pose)) || !sane(&arm.tip) {
+        if !arm.moving().iter().all(|j| j.body.is_finite() && sane(&j.pose)) || !sane(&arm.tip) {
             faults.push("arm", "holds lengths and masses whose products overflow", "write them in SI units");
         }
         if faults.count() > before {
@@ -197,13 +206,15 @@ impl Arm {
         self.joints.len()
     }
 
-    /// The joint box: position limits by joint, a full turn for an unlimited revolute joint, ±1 m for a prismatic one.
+    /// The joint box: position limits by joint, a period for an unlimited revolute joint (a full turn, but for joints that
+    /// others follow at part of their rate), ±1 m for a prismatic one.
     pub fn joint_box(&self) -> Vec<[f64; 2]> {
-        let unlimited = |kind| match kind {
-            JointKind::Revolute => [-std::f64::consts::PI, std::f64::consts::PI],
+        let unlimited = |(j, joint): (usize, &Joint)| match joint.kind {
+            JointKind::Revolute => [-0.5 * self.period(j), 0.5 * self.period(j)],
             JointKind::Prismatic => [-1.0, 1.0],
         };
-        self.joints.iter().map(|joint| joint.limits.position.unwrap_or(unlimited(joint.kind))).collect()
+        let side = |(j, joint): (usize, &Joint)| joint.limits.position.unwrap_or(unlimited((j, joint)));
+        self.joints.iter().enumerate().map(side).collect()
     }
 }
 

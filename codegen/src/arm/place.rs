@@ -2,40 +2,56 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::error::Faults;
+use crate::error::{Faults, located};
 
 /// A field of a file, such as `arm.dh.links[1]` of a specification or `joint[elbow]` of a URDF.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
     file: PathBuf,
+    line: Option<usize>,
     field: String,
 }
 
 impl Place {
     /// The field `field` of `file`.
     pub fn new(file: &Path, field: impl Into<String>) -> Self {
-        Self { file: file.to_path_buf(), field: field.into() }
+        Self { file: file.to_path_buf(), line: None, field: field.into() }
+    }
+
+    /// The same field, in line `line` of its file.
+    pub fn on(&self, line: usize) -> Self {
+        Self { line: Some(line), ..self.clone() }
+    }
+
+    /// The file.
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// The line, where it is known.
+    pub fn line(&self) -> Option<usize> {
+        self.line
     }
 
     /// The field `name` inside this one.
     pub fn at(&self, name: &str) -> Self {
         let field = if self.field.is_empty() { name.to_string() } else { format!("{}.{name}", self.field) };
-        Self { file: self.file.clone(), field }
+        Self { field, ..self.clone() }
     }
 
     /// Entry number `index` of this one.
     pub fn item(&self, index: usize) -> Self {
-        Self { file: self.file.clone(), field: format!("{}[{index}]", self.field) }
+        Self { field: format!("{}[{index}]", self.field), ..self.clone() }
     }
 
     /// Adds a fault here.
     pub fn fault(&self, faults: &mut Faults, problem: impl Into<String>, mend: impl Into<String>) {
-        faults.push_in(&self.file, &self.field, problem, mend);
+        faults.push_at(&self.file, self.line, &self.field, problem, mend);
     }
 
     /// Adds a warning here.
     pub fn warn(&self, warnings: &mut Vec<String>, what: &str) {
-        warnings.push(format!("{}: {}: {what}", self.file.display(), self.field));
+        warnings.push(format!("{}: {what}", located(&self.file, self.line, &self.field)));
     }
 
     /// `value`, after a fault where it is not finite.

@@ -48,6 +48,15 @@ impl Uncertainty {
     pub fn new(spec: &UncertaintySpec, arm: &Arm, own: &ArmSpec, file: &Path, faults: &mut Faults) -> Self {
         let place = Place::new(file, "control.uncertainty");
         let mut out = Self::default();
+        if arm.linkage.is_some() && (spec.payload.is_some() || !spec.links.is_empty()) {
+            let mend = "leave out `payload` and `links`, or hold the joints that follow others by `arm.lock`";
+            place.fault(
+                faults,
+                "has inertias of an arm whose joints follow others, which is not supported",
+                mend,
+            );
+            return out;
+        }
         if let (Some(payload), Some(last)) = (&spec.payload, arm.joints.len().checked_sub(1)) {
             let place = place.at("payload");
             let carried = own.payload.as_ref().map_or(Body::default(), |p| {

@@ -11,16 +11,20 @@ use crate::spec::PayloadSpec;
 /// Relative size below which a negative moment passes for rounding of printed tables.
 const SLACK: f64 = 1e-9;
 
+/// Density of the densest matter (osmium), kg/m³: a body of mass m has moments of some m (m/ρ)^⅔ at least, so that what
+/// is far below is rounding, even where a file writes a point mass.
+const DENSEST: f64 = 22_590.0;
+
 /// Rounding of Σ − m c cᵀ relative to Σ.
 const CANCELLATION: f64 = 1e-12;
 
 /// Checks a body as given, in whatever frame: mass ≥ 0, no first moment without mass, inertia about the centre of
 /// mass positive semidefinite; a broken triangle inequality is a warning, for published tables break it.
 ///
-/// `inertia` is the name of the field from which the inertia comes.
+/// `inertia` is the place from which the inertia comes, `place` that of the whole body.
 pub(super) fn body(
     body: &Body,
-    inertia: &str,
+    inertia: &Place,
     place: &Place,
     faults: &mut Faults,
     warnings: &mut Vec<String>,
@@ -42,21 +46,22 @@ pub(super) fn body(
         return;
     }
     let tensor = body.inertia_at_com();
-    let scale = largest(&tensor);
+    let size = libm::cbrt(body.mass / DENSEST);
+    let scale = largest(&tensor) + body.mass * size * size;
     let slack = SLACK * scale + CANCELLATION * largest(&body.pseudo_inertia);
     let moments = principal_moments(&tensor);
     if moments[0] < -slack {
         let problem = format!("gives the principal moment {:.6e} kg·m² about the centre of mass", moments[0]);
         let mend = "write an inertia without negative moments; check signs, units and the point it refers to";
-        place.at(inertia).fault(faults, problem, mend);
+        inertia.fault(faults, problem, mend);
     } else if moments[2] > moments[0] + moments[1] + slack {
         let moments = moments.map(|moment| if moment.abs() <= slack { 0.0 } else { moment });
+        let [first, second, third] = moments.map(moment);
         let what = format!(
-            "the principal moments {:.6}, {:.6}, {:.6} kg·m² break the triangle inequality; \
-             no rigid body has them, they are used as given",
-            moments[0], moments[1], moments[2]
+            "the principal moments {first}, {second}, {third} kg·m² break the triangle inequality; \
+             no rigid body has them, they are used as given"
         );
-        place.at(inertia).warn(warnings, &what);
+        inertia.warn(warnings, &what);
     }
 }
 
@@ -69,8 +74,13 @@ pub(super) fn payload(
 ) -> Body {
     let inertia = spec.inertia.as_ref().map_or([[0.0; 3]; 3], matrix);
     let out = Body::from_com(spec.mass, spec.com, inertia);
-    body(&out, "inertia", place, faults, warnings);
+    body(&out, &place.at("inertia"), place, faults, warnings);
     out
+}
+
+/// A moment in words: six decimals, or four digits where these would hide it.
+fn moment(x: f64) -> String {
+    if x == 0.0 || x.abs() >= 1e-3 { format!("{x:.6}") } else { format!("{x:.3e}") }
 }
 
 fn largest(m: &Matrix) -> f64 {

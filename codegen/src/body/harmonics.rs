@@ -3,23 +3,35 @@
 use std::collections::BTreeMap;
 
 use crate::graph::{Builder, Expr, Variable};
-use crate::lagrangian::{Function, MAX_JOINTS};
+use crate::lagrangian::{Function, MAX_JOINTS, WHOLE};
 
 type Kappa = [i8; MAX_JOINTS];
 
 /// Builds ψ functions, each sum of angles once.
 pub(super) struct Harmonics<'g> {
     builder: &'g Builder,
+    part: [u8; MAX_JOINTS],
     known: BTreeMap<Kappa, (Expr<'g>, Expr<'g>)>,
 }
 
 impl<'g> Harmonics<'g> {
+    /// Of whole angles, until a function of others is asked for.
     pub(super) fn new(builder: &'g Builder) -> Self {
-        Self { builder, known: BTreeMap::new() }
+        Self { builder, part: WHOLE, known: BTreeMap::new() }
+    }
+
+    /// Of parts of angles.
+    pub(super) fn of_parts(builder: &'g Builder, part: [u8; MAX_JOINTS]) -> Self {
+        builder.divide(part);
+        Self { part, ..Self::new(builder) }
     }
 
     /// ψ as a node with a line of its own, named after the function.
     pub(super) fn function(&mut self, psi: &Function) -> Expr<'g> {
+        if self.part != psi.part {
+            self.part = psi.part;
+            self.builder.divide(psi.part);
+        }
         let mut value = self.builder.constant(1.0);
         for (j, &power) in psi.power.iter().enumerate() {
             for _ in 0..power {
@@ -48,8 +60,9 @@ impl<'g> Harmonics<'g> {
                 if before == [0; MAX_JOINTS] { turned } else { sum(self.sin_cos(before), turned) }
             }
         };
+        let part = self.part;
         let named = |sine, value: Expr<'g>| {
-            value.named(&Function { kappa, power: [0; MAX_JOINTS], sine }.identifier(), true)
+            value.named(&Function { kappa, sine, part, ..Function::ONE }.identifier(), true)
         };
         let pair = if last.is_some() && kappa.iter().find(|&&k| k != 0).is_some_and(|&k| k > 0) {
             (named(true, pair.0), named(false, pair.1))
@@ -60,8 +73,8 @@ impl<'g> Harmonics<'g> {
         pair
     }
 
-    /// (sin k q_j, cos k q_j).
-    fn multiple(&mut self, j: usize, k: i8) -> (Expr<'g>, Expr<'g>) {
+    /// (sin k q_j, cos k q_j), or of that multiple of a part of q_j.
+    pub(super) fn multiple(&mut self, j: usize, k: i8) -> (Expr<'g>, Expr<'g>) {
         if k < 0 {
             let (sin, cos) = self.multiple(j, -k);
             return (-sin, cos);
@@ -82,8 +95,9 @@ impl<'g> Harmonics<'g> {
         } else {
             sum(self.multiple(j, k - 1), single)
         };
+        let part = self.part;
         let named = |sine, value: Expr<'g>| {
-            value.named(&Function { kappa, power: [0; MAX_JOINTS], sine }.identifier(), true)
+            value.named(&Function { kappa, sine, part, ..Function::ONE }.identifier(), true)
         };
         let pair = (named(true, pair.0), named(false, pair.1));
         self.known.insert(kappa, pair);
@@ -92,6 +106,6 @@ impl<'g> Harmonics<'g> {
 }
 
 /// Sine and cosine of a + b.
-fn sum<'g>(a: (Expr<'g>, Expr<'g>), b: (Expr<'g>, Expr<'g>)) -> (Expr<'g>, Expr<'g>) {
+pub(super) fn sum<'g>(a: (Expr<'g>, Expr<'g>), b: (Expr<'g>, Expr<'g>)) -> (Expr<'g>, Expr<'g>) {
     (a.0 * b.1 + a.1 * b.0, a.1 * b.1 - a.0 * b.0)
 }

@@ -1,5 +1,6 @@
 //! Bodies of the passivity torque D̂ a_r + Ĉ v_r + Ĝ as expression graphs.
 
+mod coupled;
 mod expanded;
 mod factors;
 mod harmonics;

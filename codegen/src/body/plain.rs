@@ -1,12 +1,16 @@
 //! The exact torque by the plain recursion: dearer than the one that is searched for, but what coarse sines and cosines do
 //! to it is known.
 
+use super::coupled::coupled;
 use crate::arm::{Arm, JointKind};
 use crate::dynamics::{Position, passivity_torque};
 use crate::graph::{Builder, Graph, Variable};
 
 /// Runs the recursion of the oracle over graph nodes.
 pub fn plain(arm: &Arm) -> Graph {
+    if let Some(linkage) = &arm.linkage {
+        return coupled(arm, linkage, &plain(&linkage.chain));
+    }
     let builder = Builder::new();
     let n = arm.dof();
     let positions: Vec<_> = arm

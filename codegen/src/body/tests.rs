@@ -115,7 +115,7 @@ fn random_arm(seed: u64) -> Arm {
     });
     let joints = joints.collect();
     let gravity = if numbers.one_in(2) { [0.0, 0.0, -9.81] } else { numbers.vector().map(|g| 9.0 * g) };
-    Arm { gravity, joints, tip: Transform::IDENTITY }
+    Arm { gravity, joints, tip: Transform::IDENTITY, linkage: None }
 }
 
 /// The torque of another description of the same arm, as [`error`] measures a body.

@@ -187,7 +187,7 @@ impl<'a> Expander<'a> {
         below.clear();
         below.extend_from_slice(&polynomial.coefficients);
         for (slot, level) in polynomial.levels.iter().enumerate().rev() {
-            let factors = factors(q[slot], polynomial.largest[slot], polynomial.prismatic[slot]);
+            let factors = factors(q[slot], polynomial.largest[slot], polynomial.angle(slot));
             let steps = &self.steps[k - 1 - slot];
             // Those without a derivative in the new joint come first.
             let inner = steps.iter().filter(|(a, _)| *a == 0).count();
@@ -226,12 +226,13 @@ impl<'a> Expander<'a> {
 
 /// For all exponents from −largest to largest a factor φ and what its derivatives divided by their factorials are
 /// times φ, without the powers of i; φ = 1 for a prismatic joint.
-fn factors(q: f64, largest: i8, prismatic: bool) -> Vec<(Complex, [f64; ORDER + 1])> {
-    let (sin, cos) = libm::sincos(q);
+fn factors(q: f64, largest: i8, angle: Option<f64>) -> Vec<(Complex, [f64; ORDER + 1])> {
+    let unit = angle.unwrap_or(1.0);
+    let (sin, cos) = libm::sincos(q * unit);
     let factor = |e: i8| {
         let mut scales = [0.0; ORDER + 1];
         let top = usize::from(e.unsigned_abs());
-        if prismatic {
+        if angle.is_none() {
             // The binomial theorem; there are no negative powers.
             let mut binomial = 1.0;
             for a in 0..=top.min(ORDER) {
@@ -242,7 +243,7 @@ fn factors(q: f64, largest: i8, prismatic: bool) -> Vec<(Complex, [f64; ORDER + 
         }
         scales[0] = 1.0;
         for a in 1..=ORDER {
-            scales[a] = scales[a - 1] * f64::from(e) / a as f64;
+            scales[a] = scales[a - 1] * (f64::from(e) * unit) / a as f64;
         }
         let turn = [cos, if e < 0 { -sin } else { sin }];
         ((0..top).fold([1.0, 0.0], |power, _| times(power, turn)), scales)

@@ -54,7 +54,7 @@ impl Polynomial {
     /// φ for all exponents from −largest to largest.
     fn factors(&self, slot: usize, q: f64) -> Vec<Complex> {
         let top = usize::from(self.largest[slot].unsigned_abs());
-        let (sin, cos) = if self.prismatic[slot] { (0.0, q) } else { libm::sincos(q) };
+        let (sin, cos) = self.angle(slot).map_or((0.0, q), |unit| libm::sincos(q * unit));
         let mut out = vec![[0.0; 2]; 2 * top + 1];
         let mut power = [1.0, 0.0];
         for e in 0..=top {
@@ -70,8 +70,9 @@ impl Polynomial {
     pub(super) fn curvature(&self, slot: usize) -> Self {
         self.mapped(|exponents| {
             let e = exponents[slot];
-            if !self.prismatic[slot] {
-                return (exponents.to_vec(), f64::from(e) * f64::from(e));
+            if let Some(unit) = self.angle(slot) {
+                let frequency = f64::from(e) * unit;
+                return (exponents.to_vec(), frequency * frequency);
             }
             let mut lower = exponents.to_vec();
             lower[slot] = (e - 2).max(0);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::lagrangian::{Function, MAX_JOINTS};
+use crate::lagrangian::{Function, MAX_JOINTS, WHOLE};
 
 /// A complex number [real, imaginary].
 pub(super) type Complex = [f64; 2];
@@ -46,6 +46,8 @@ pub struct Polynomial {
     pub joints: Vec<usize>,
     /// Whether each is prismatic.
     pub(super) prismatic: Vec<bool>,
+    /// The part of its angle that the exponents of each count, as a factor; 1 for a whole angle.
+    unit: Vec<f64>,
     /// Exponents from `-largest` to `largest`.
     pub(super) largest: Vec<i8>,
     /// One level a joint, the first joint first.
@@ -78,6 +80,9 @@ impl Polynomial {
     pub fn new<'a>(terms: impl Iterator<Item = (&'a Function, f64)> + Clone) -> Self {
         let occurs = |j: usize| terms.clone().any(|(psi, _)| psi.kappa[j] != 0 || psi.power[j] != 0);
         let joints: Vec<usize> = (0..MAX_JOINTS).filter(|&j| occurs(j)).collect();
+        // All functions of one arm count the same parts of its angles.
+        let part = terms.clone().next().map_or(WHOLE, |(psi, _)| psi.part);
+        let unit = joints.iter().map(|&j| 1.0 / f64::from(part[j])).collect();
         let prismatic = joints.iter().map(|&j| terms.clone().any(|(psi, _)| psi.power[j] != 0)).collect();
         let mut gathered: BTreeMap<Vec<i8>, Complex> = BTreeMap::new();
         for (psi, k) in terms {
@@ -86,16 +91,34 @@ impl Polynomial {
             // k cos θ = Re k e^{iθ} and k sin θ = Re(−ik e^{iθ}).
             slot[usize::from(psi.sine)] += if psi.sine { -k } else { k };
         }
-        Self::of(joints, prismatic, gathered)
+        Self::of(joints, prismatic, unit, gathered)
     }
 
-    fn of(joints: Vec<usize>, prismatic: Vec<bool>, gathered: BTreeMap<Vec<i8>, Complex>) -> Self {
+    /// What the exponents of a revolute joint count: this part of its angle; `None` for a prismatic joint.
+    pub(super) fn angle(&self, slot: usize) -> Option<f64> {
+        (!self.prismatic[slot]).then(|| self.unit[slot])
+    }
+
+    fn of(
+        joints: Vec<usize>,
+        prismatic: Vec<bool>,
+        unit: Vec<f64>,
+        gathered: BTreeMap<Vec<i8>, Complex>,
+    ) -> Self {
         let exponents: Vec<Vec<i8>> = gathered.keys().cloned().collect();
         let largest: Vec<i8> = (0..joints.len())
             .map(|slot| exponents.iter().map(|e| e[slot].abs()).max().unwrap_or(0))
             .collect();
         let levels = levels(&exponents, &largest);
-        Self { joints, prismatic, largest, levels, coefficients: gathered.into_values().collect(), exponents }
+        Self {
+            joints,
+            prismatic,
+            unit,
+            largest,
+            levels,
+            coefficients: gathered.into_values().collect(),
+            exponents,
+        }
     }
 
     /// Over the same joints the sum of the terms as `change` turns them: other exponents, and a factor.
@@ -109,7 +132,7 @@ impl Polynomial {
                 slot[1] += factor * c[1];
             }
         }
-        Self::of(self.joints.clone(), self.prismatic.clone(), gathered)
+        Self::of(self.joints.clone(), self.prismatic.clone(), self.unit.clone(), gathered)
     }
 
     /// Magnitude |c_l| and exponents of every term.
@@ -125,7 +148,7 @@ impl Polynomial {
         below.clear();
         below.extend_from_slice(&self.coefficients);
         for (slot, level) in self.levels.iter().enumerate().rev() {
-            fill_factors(factors, q[slot], self.largest[slot], self.prismatic[slot]);
+            fill_factors(factors, q[slot], self.largest[slot], self.angle(slot));
             let deeper = k - 1 - slot;
             climb(level, factors, deeper, below, above);
             std::mem::swap(below, above);
@@ -159,20 +182,20 @@ fn levels(exponents: &[Vec<i8>], largest: &[i8]) -> Vec<Level> {
 }
 
 /// φ, φ′ and φ″ for all exponents from −largest to largest.
-fn fill_factors(factors: &mut Vec<[Complex; 3]>, q: f64, largest: i8, prismatic: bool) {
+fn fill_factors(factors: &mut Vec<[Complex; 3]>, q: f64, largest: i8, angle: Option<f64>) {
     factors.clear();
     let top = usize::from(largest.unsigned_abs());
     factors.resize(2 * top + 1, [[0.0; 2]; 3]);
     let mut power = [1.0, 0.0];
-    let (sin, cos) = if prismatic { (0.0, q) } else { libm::sincos(q) };
+    let (sin, cos) = angle.map_or((0.0, q), |unit| libm::sincos(q * unit));
     let mut powers = vec![power];
     for _ in 0..top {
         power = times(power, [cos, sin]);
         powers.push(power);
     }
     for (e, &f) in powers.iter().enumerate() {
-        let k = e as f64;
-        if prismatic {
+        let k = e as f64 * angle.unwrap_or(1.0);
+        if angle.is_none() {
             let lower = |by: usize| if e >= by { powers[e - by][0] } else { 0.0 };
             factors[top + e] = [f, [k * lower(1), 0.0], [k * (k - 1.0) * lower(2), 0.0]];
         } else {

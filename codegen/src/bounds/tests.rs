@@ -21,7 +21,7 @@ fn terms() -> Vec<(Function, f64)> {
         (kappa[0], kappa[1], kappa[3]) = (pick(u[0], 1, 2.0), pick(u[1], -2, 5.0), pick(u[2], -2, 5.0));
         let mut power = [0; MAX_JOINTS];
         power[2] = (u[3] * 3.0) as u8;
-        (Function { kappa, power, sine: u[4] > 0.5 }, 2.0 * u[5] - 1.0)
+        (Function { kappa, power, sine: u[4] > 0.5, ..Function::ONE }, 2.0 * u[5] - 1.0)
     };
     (0..20).map(term).collect()
 }

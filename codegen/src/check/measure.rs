@@ -1,7 +1,7 @@
 //! Measures: what each needs of the motion and of the joint limits.
 
 use super::shape::entries;
-use crate::arm::Arm;
+use crate::arm::{Arm, Limits};
 use crate::error::Faults;
 use crate::spec::{MeasureSpec, Spec};
 
@@ -10,7 +10,7 @@ pub(super) fn check(spec: &Spec, arm: Option<&Arm>, joints: Option<usize>, fault
     match &spec.measure {
         Some(MeasureSpec::Workspace) => {
             if let Some(arm) = arm {
-                limits(arm, faults);
+                limits(spec, arm, faults);
             }
             return;
         }
@@ -38,7 +38,10 @@ pub(super) fn check(spec: &Spec, arm: Option<&Arm>, joints: Option<usize>, fault
     }
 }
 
-fn limits(arm: &Arm, faults: &mut Faults) {
+/// Time in which a joint reaches its top speed at the acceleration that is proposed for it, s.
+const RISE: f64 = 0.2;
+
+fn limits(spec: &Spec, arm: &Arm, faults: &mut Faults) {
     let lacking: Vec<String> = arm
         .joints
         .iter()
@@ -54,10 +57,30 @@ fn limits(arm: &Arm, faults: &mut Faults) {
         })
         .collect();
     if !lacking.is_empty() {
-        faults.push(
-            "measure",
-            format!("is \"workspace\", but of the joint limits {}", lacking.join(", ")),
-            "add the limits, or choose `tube` or `trajectory`",
-        );
+        let problem = format!("is \"workspace\", but of the joint limits {}", lacking.join(", "));
+        faults.push("measure", problem, mend(spec, arm));
     }
+}
+
+/// Where the limits are written, with an acceleration to begin with for the first joint that lacks one.
+fn mend(spec: &Spec, arm: &Arm) -> String {
+    let otherwise = "or choose `tube` or `trajectory`";
+    let field = |i: usize, name: &str| match spec.arm.urdf {
+        Some(_) => format!("arm.joints.{name}.limits"),
+        None => format!("arm.dh.links[{i}].limits"),
+    };
+    let mut joints = arm.joints.iter().enumerate();
+    let Some((i, joint)) = joints.find(|(_, joint)| joint.limits.acceleration.is_none()) else {
+        let mut joints = arm.joints.iter().enumerate();
+        let lacking = |limits: &Limits| limits.position.is_none() || limits.velocity.is_none();
+        let place = joints.find(|(_, joint)| lacking(&joint.limits)).map(|(i, j)| field(i, &j.name));
+        return format!("add the limits as `{}`, {otherwise}", place.unwrap_or_default());
+    };
+    let start = joint.limits.velocity.map_or(String::new(), |speed| {
+        format!(
+            " (if it is not known, begin with {:.3}, which reaches the top speed in {RISE} s)",
+            speed / RISE
+        )
+    });
+    format!("add the limits, such as `{}.acceleration`{start}, {otherwise}", field(i, &joint.name))
 }

@@ -10,8 +10,8 @@ mod shape;
 use std::path::Path;
 
 use crate::arm::{Arm, Built, MOST_JOINTS};
-use crate::error::{Error, Faults};
-use crate::load::{Loaded, load};
+use crate::error::{Error, Fault, Faults};
+use crate::load::{Draft, Loaded, draft};
 use crate::motion::Motion;
 use crate::sines::{COARSEST, FINEST};
 use crate::spec::{DictionarySpec, LawSpec, ModelSpec, Spec, TrigSpec};
@@ -34,9 +34,33 @@ pub struct Checked {
 /// Reads and checks the specification at `path`.
 ///
 /// # Errors
-/// Those of [`load`]; else [`Error::Input`] with every fault that [`examine`] finds.
+/// Those of [`read`]; else [`Error::Input`] with every fault that [`examine`] finds.
 pub fn prepare(path: &Path) -> Result<Checked, Error> {
-    from_loaded(load(path)?)
+    from_loaded(read(path)?)
+}
+
+/// Reads the specification at `path`; where its shape is at fault, the faults of all values that can be read are told with
+/// those of the shape.
+///
+/// # Errors
+/// [`Error::Input`] where the file cannot be read, else with every fault.
+pub fn read(path: &Path) -> Result<Loaded, Error> {
+    let Draft { loaded, mut faults, lost } = draft(path)?;
+    let Some(loaded) = loaded else { return Err(faults.into_error()) };
+    if faults.is_empty() {
+        return Ok(loaded);
+    }
+    let mut values = Faults::of(&loaded.path);
+    examine(&loaded, &mut values);
+    // Faults of what stands in for a section, or of its absence, are none of the user's.
+    let gone = |section: &str| lost.contains(section);
+    let together = ["dictionary", "emit.trig", "control.law"];
+    let known = |fault: &&Fault| {
+        let section = fault.field.split(['.', '[']).next().unwrap_or_default();
+        !gone(section) && !(gone("model") && together.contains(&fault.field.as_str()))
+    };
+    faults.extend(values.list().iter().filter(known).cloned());
+    Err(faults.into_error())
 }
 
 /// The same from a specification that is read already.
@@ -55,20 +79,36 @@ pub fn from_loaded(loaded: Loaded) -> Result<Checked, Error> {
 ///
 /// Every fault goes to `faults`; `None` stands for an arm or a motion that is at fault, or for no motion.
 pub fn examine(loaded: &Loaded, faults: &mut Faults) -> (Option<Built>, Option<Motion>) {
+    let (built, motion) = model(loaded, faults);
+    if let Some(control) = &loaded.spec.control {
+        let joints = joints(&loaded.spec, built.as_ref().map(|b| &b.arm));
+        control::check(control, joints, faults);
+        design::check(control, &loaded.spec, joints, faults);
+    }
+    (built, motion)
+}
+
+/// The same without the numbers of the control law: what the model alone takes.
+pub fn model(loaded: &Loaded, faults: &mut Faults) -> (Option<Built>, Option<Motion>) {
     let built = Arm::from_spec(loaded, faults);
     let motion = check(loaded, built.as_ref().map(|b| &b.arm), faults);
     (built, motion)
 }
 
-/// Checks every field that is not the arm's own, and gives the motion.
+/// The number of joints; without an arm (because it is at fault) that of the DH table.
+fn joints(spec: &Spec, arm: Option<&Arm>) -> Option<usize> {
+    let table = || spec.arm.dh.as_ref().map(|table| table.links.len());
+    // A table with too many links says nothing about the lengths that are meant.
+    arm.map(Arm::dof).or_else(table).filter(|n| (1..=MOST_JOINTS).contains(n))
+}
+
+/// Checks every field that is neither the arm's own nor the control law's, and gives the motion.
 ///
 /// Without an arm (because it is at fault) the number of joints is taken from the DH table, and what needs to know
 /// more is passed over.
 fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> {
     let spec = &loaded.spec;
-    let table = || spec.arm.dh.as_ref().map(|table| table.links.len());
-    // A table with too many links says nothing about the lengths that are meant.
-    let joints = arm.map(Arm::dof).or_else(table).filter(|n| (1..=MOST_JOINTS).contains(n));
+    let joints = joints(spec, arm);
     name::check(&spec.name, faults);
     match &spec.model {
         ModelSpec::Shared { functions: 0 } => {
@@ -89,10 +129,6 @@ fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Faults) -> Option<Moti
     }
     let motion = spec.motion.as_ref().and_then(|motion| motion::check(motion, loaded, arm, joints, faults));
     measure::check(spec, arm, joints, faults);
-    if let Some(control) = &spec.control {
-        control::check(control, joints, faults);
-        design::check(control, spec, joints, faults);
-    }
     if let TrigSpec::Table { error } = spec.emit.trig
         && !(FINEST..=COARSEST).contains(&error)
     {

@@ -7,6 +7,10 @@ use crate::load::Loaded;
 use crate::motion::{Motion, check_limits};
 use crate::spec::MotionSpec;
 
+/// Most knots of a motion and most sinusoids of a joint: each stands in the module.
+const MOST_KNOTS: usize = 20_000;
+const MOST_SINUSOIDS: usize = 1_000;
+
 /// The motion that `spec` describes, where nothing is wrong with its fields or its table; against the limits of the
 /// arm where that is known.
 pub(super) fn check(
@@ -40,6 +44,9 @@ fn fields(motion: &MotionSpec, joints: Option<usize>, faults: &mut Faults) {
         MotionSpec::Sinusoids { offset, terms, duration } => {
             length("motion.sinusoids.offset", offset.len(), joints, faults);
             length("motion.sinusoids.terms", terms.len(), joints, faults);
+            for (i, terms) in terms.iter().enumerate() {
+                at_most(&format!("motion.sinusoids.terms[{i}]"), terms.len(), MOST_SINUSOIDS, faults);
+            }
             positive("motion.sinusoids.duration", *duration, faults);
         }
         MotionSpec::Csv { file } if file.is_empty() => {
@@ -55,6 +62,7 @@ fn fields(motion: &MotionSpec, joints: Option<usize>, faults: &mut Faults) {
 
 fn waypoints(times: &[f64], positions: &[Vec<f64>], joints: Option<usize>, faults: &mut Faults) {
     let field = "motion.waypoints.times";
+    at_most(field, times.len(), MOST_KNOTS, faults);
     if times.len() < 2 {
         faults.push(field, has(times.len()), "write at least 2 times");
     }
@@ -79,6 +87,12 @@ fn waypoints(times: &[f64], positions: &[Vec<f64>], joints: Option<usize>, fault
     }
     for (i, position) in positions.iter().enumerate() {
         length(&format!("motion.waypoints.positions[{i}]"), position.len(), joints, faults);
+    }
+}
+
+fn at_most(field: &str, found: usize, most: usize, faults: &mut Faults) {
+    if found > most {
+        faults.push(field, has(found), format!("write at most {most}: each stands in the module"));
     }
 }
 

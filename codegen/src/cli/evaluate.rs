@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use serde::{Deserialize, Serialize};
 
-use super::progress::generated;
+use super::progress::modelled;
 use super::{json, show_warnings};
 use crate::arm::Arm;
 use crate::body::matrices;
@@ -67,7 +67,7 @@ impl Evaluation {
 
 impl Evaluate {
     pub(super) fn run(&self) -> Result<String, Error> {
-        let generation = generated(&self.spec)?;
+        let generation = modelled(&self.spec)?;
         show_warnings(&generation.warnings);
         let states = read(&self.states, generation.arm.dof())?;
         let evaluations: Vec<Evaluation> =

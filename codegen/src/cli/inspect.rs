@@ -13,9 +13,9 @@ use self::view::view;
 use super::progress::watched;
 use super::{json, show_warnings};
 use crate::bounds::Effort;
+use crate::check::read;
 use crate::error::Error;
 use crate::graph::Operations;
-use crate::load::load;
 use crate::pipeline::Generation;
 use crate::progress::Stage;
 use crate::spec::MatrixSpec;
@@ -181,7 +181,7 @@ struct GuaranteeView<'a> {
 impl Inspect {
     pub(super) fn run(&self) -> Result<String, Error> {
         let effort = Effort { seek_tube: true, ..Effort::default() };
-        let loaded = load(&self.spec)?;
+        let loaded = read(&self.spec)?;
         let generation = watched(|progress| Generation::with_progress(loaded, &effort, progress))?;
         show_warnings(&generation.warnings);
         let size = generation.module()?.len();

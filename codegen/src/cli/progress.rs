@@ -10,8 +10,8 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::bounds::Effort;
+use crate::check::read;
 use crate::error::Error;
-use crate::load::load;
 use crate::pipeline::Generation;
 use crate::progress::Progress;
 
@@ -33,8 +33,17 @@ pub(super) fn watched<T>(work: impl FnOnce(&dyn Progress) -> T) -> T {
 /// # Errors
 /// As [`Generation::from_file`].
 pub(super) fn generated(path: &Path) -> Result<Generation, Error> {
-    let loaded = load(path)?;
+    let loaded = read(path)?;
     watched(|progress| Generation::with_progress(loaded, &Effort::default(), progress))
+}
+
+/// The model of the specification at `path` alone, with a bar.
+///
+/// # Errors
+/// As [`Generation::model`].
+pub(super) fn modelled(path: &Path) -> Result<Generation, Error> {
+    let loaded = read(path)?;
+    watched(|progress| Generation::model(loaded, &Effort::default(), progress))
 }
 
 /// The stage under way in a line of its own on standard error, from one second on until this is dropped; nothing where

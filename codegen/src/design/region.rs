@@ -82,7 +82,7 @@ pub(super) fn outside(domain: &Domain, motion: Option<&Motion>, arm: &Arm, error
 
 /// How far the joints may be off the motion inside the domain, rad or m; a full turn has room for half of one.
 pub(super) fn room(domain: &Domain, motion: Option<&Motion>, arm: &Arm) -> Vec<f64> {
-    let turn = vec![std::f64::consts::PI; arm.dof()];
+    let turn: Vec<f64> = (0..arm.dof()).map(|i| 0.5 * arm.period(i)).collect();
     let (limits, motion) = match (domain, motion) {
         (Domain::Workspace(limits), Some(motion)) => (limits, motion),
         _ => return width(domain, arm.dof()).unwrap_or(turn),
@@ -100,7 +100,7 @@ pub(super) fn room(domain: &Domain, motion: Option<&Motion>, arm: &Arm) -> Vec<f
 fn turns(arm: &Arm, limits: &[[f64; 2]], i: usize) -> bool {
     arm.joints[i].kind == JointKind::Revolute
         && arm.joints[i].limits.position.is_none()
-        && limits[i][1] - limits[i][0] >= 2.0 * std::f64::consts::PI * (1.0 - 1e-12)
+        && limits[i][1] - limits[i][0] >= arm.period(i) * (1.0 - 1e-12)
 }
 
 /// Largest |q_j| in the cells.

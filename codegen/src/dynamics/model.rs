@@ -3,8 +3,11 @@
 use super::recursion::{Position, passivity_torque};
 use crate::arm::{Arm, JointKind, Transform};
 
-/// Joint positions in the form that the recursion takes.
+/// Positions of the joints that move, in the form that the recursion takes.
 pub(crate) fn positions(arm: &Arm, q: &[f64]) -> Vec<Position<f64>> {
+    if let Some(linkage) = &arm.linkage {
+        return positions(&linkage.chain, &linkage.positions(q));
+    }
     let position = |(joint, &q): (&crate::arm::Joint, &f64)| match joint.kind {
         JointKind::Revolute => {
             let (sin, cos) = libm::sincos(q);
@@ -55,7 +58,8 @@ pub fn energy(arm: &Arm, q: &[f64], qd: &[f64]) -> (f64, f64) {
     }
     let mut pose = Transform::IDENTITY;
     let mut potential = 0.0;
-    for (joint, &q) in arm.joints.iter().zip(q) {
+    let behind = arm.linkage.as_ref().map(|linkage| linkage.positions(q));
+    for (joint, &q) in arm.moving().iter().zip(behind.as_deref().unwrap_or(q)) {
         let motion = match joint.kind {
             JointKind::Revolute => Transform::rotation(2, q),
             JointKind::Prismatic => Transform::translation([0.0, 0.0, q]),

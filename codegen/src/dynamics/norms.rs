@@ -114,25 +114,69 @@ pub struct Sizes {
 impl Sizes {
     /// Of `arm`, where |q_j| ≤ `reach`, m, for prismatic joints.
     pub fn new(arm: &Arm, reach: &[f64]) -> Self {
-        Self::of(&links(arm, reach), norm(&arm.gravity))
+        Self::within(arm, &moving_reach(arm, reach))
+    }
+
+    /// The same, where `reach` bounds the positions of all joints that move.
+    pub fn within(arm: &Arm, reach: &[f64]) -> Self {
+        Self::of(&links(arm, reach), norm(&arm.gravity)).gathered(arm)
     }
 
     /// The same, where every joint's sine and cosine are off by `sine`: in the plane that it turns, its rotation times a
     /// number of modulus below √2 `sine` is added.
     pub fn with_sines(arm: &Arm, reach: &[f64], sine: f64) -> Self {
-        let mut links = links(arm, reach);
+        let mut links = links(arm, &moving_reach(arm, reach));
+        let couplings = arm.linkage.iter().flat_map(|linkage| &linkage.couplings);
+        let parts = f64::from(arm.parts().into_iter().max().unwrap_or(1));
+        let most = couplings.map(|c| c.multiplier.abs() * parts + 1.0).fold(1.0, f64::max);
+        // The sine of k times an angle and a constant one more comes from k + 1 turns, each as far off.
+        let change = match most > 1.0 && sine > 0.0 {
+            true => UP * (libm::pow(1.0 + SQRT_2 * sine, most) - 1.0),
+            false => SQRT_2 * sine,
+        };
         for link in links.iter_mut().filter(|link| link.kind == JointKind::Revolute) {
-            link.turn.change = SQRT_2 * sine;
+            link.turn.change = change;
         }
-        Self::of(&links, norm(&arm.gravity))
+        Self::of(&links, norm(&arm.gravity)).gathered(arm)
     }
 
     /// The same, with what `other` differs by, an arm with the same joints.
     pub fn beside(arm: &Arm, other: &Arm, reach: &[f64]) -> Self {
-        let joints = arm.joints.iter().zip(&other.joints).enumerate();
+        let reach = moving_reach(arm, reach);
+        let joints = arm.moving().iter().zip(other.moving()).enumerate();
         let links: Vec<Link> =
-            joints.map(|(j, (joint, other))| Link::beside(joint, other, at(reach, j))).collect();
-        Self::of(&links, norm(&arm.gravity))
+            joints.map(|(j, (joint, other))| Link::beside(joint, other, at(&reach, j))).collect();
+        Self::of(&links, norm(&arm.gravity)).gathered(arm)
+    }
+
+    /// Of the coordinates of `arm`, where these are those of its chain: |J|ᵀ D' |J| and so on, and the armature.
+    fn gathered(self, arm: &Arm) -> Self {
+        let Some(linkage) = &arm.linkage else { return self };
+        let n = arm.dof();
+        let zero = Size::default();
+        let mut out = Self {
+            mass_matrix: vec![vec![zero; n]; n],
+            christoffel: vec![vec![vec![zero; n]; n]; n],
+            gravity: vec![zero; n],
+        };
+        let by = |size: Size, m: f64| Size { exact: size.exact * m.abs(), change: size.change * m.abs() };
+        for (i, a) in linkage.couplings.iter().enumerate() {
+            let row = a.coordinate;
+            out.gravity[row] = out.gravity[row] + by(self.gravity[i], a.multiplier);
+            for (j, b) in linkage.couplings.iter().enumerate() {
+                let both = a.multiplier * b.multiplier;
+                let sum = &mut out.mass_matrix[row][b.coordinate];
+                *sum = *sum + by(self.mass_matrix[i][j], both);
+                for (k, c) in linkage.couplings.iter().enumerate() {
+                    let sum = &mut out.christoffel[row][b.coordinate][c.coordinate];
+                    *sum = *sum + by(self.christoffel[i][j][k], both * c.multiplier);
+                }
+            }
+        }
+        for (j, joint) in arm.joints.iter().enumerate() {
+            out.mass_matrix[j][j] = out.mass_matrix[j][j] + Size::fixed(joint.armature.abs());
+        }
+        out
     }
 
     fn of(links: &[Link], gravity: f64) -> Self {
@@ -162,8 +206,13 @@ impl Sizes {
     }
 }
 
+/// Bounds on the positions of the joints that move, from those of the coordinates.
+fn moving_reach(arm: &Arm, reach: &[f64]) -> Vec<f64> {
+    arm.linkage.as_ref().map_or_else(|| reach.to_vec(), |linkage| linkage.reach(reach))
+}
+
 fn links(arm: &Arm, reach: &[f64]) -> Vec<Link> {
-    arm.joints.iter().enumerate().map(|(j, joint)| Link::new(joint, at(reach, j))).collect()
+    arm.moving().iter().enumerate().map(|(j, joint)| Link::new(joint, at(reach, j))).collect()
 }
 
 fn at(reach: &[f64], joint: usize) -> f64 {

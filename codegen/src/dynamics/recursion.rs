@@ -5,7 +5,7 @@
 //! that form is unique: one pass yields D a_r + C(q, q̇) v_r + G with the Christoffel C.
 
 use super::scalar::{Scalar, Vector, add, apply, cross, lift};
-use crate::arm::{Arm, Joint, JointKind};
+use crate::arm::{Arm, Coupling, Joint, JointKind};
 
 /// Where a joint stands, in the form its kind needs.
 #[derive(Clone, Copy, Debug)]
@@ -37,9 +37,35 @@ struct Motion<S> {
 
 /// D(q) a_r + C(q, q̇) v_r + G(q), N·m or N, without friction but with armature; gravity in m/s², base frame.
 ///
-/// All slices have one entry a joint; missing entries end the recursion early.
+/// Slices have one entry a coordinate, but for `q`, which has one for each joint of [`Arm::moving`]; missing entries end
+/// the recursion early. Where joints follow others, with rates J q̇, the chain's torque τ' gives Jᵀ τ'.
 /// Newton–Euler after Luh, Walker and Paul (1980).
 pub fn passivity_torque<S: Scalar>(
+    arm: &Arm,
+    gravity: [f64; 3],
+    q: &[Position<S>],
+    qd: &[S],
+    v_r: &[S],
+    a_r: &[S],
+) -> Vec<S> {
+    let Some(linkage) = &arm.linkage else { return serial(arm, gravity, q, qd, v_r, a_r) };
+    let spread = |x: &[S]| -> Vec<S> {
+        let rate = |c: &Coupling| x.get(c.coordinate).map(|x| x.constant(c.multiplier) * *x);
+        linkage.couplings.iter().map_while(rate).collect()
+    };
+    let along = serial(&linkage.chain, gravity, q, &spread(qd), &spread(v_r), &spread(a_r));
+    let mut torque: Vec<S> =
+        arm.joints.iter().zip(a_r).map(|(joint, &a)| a.constant(joint.armature) * a).collect();
+    for (tau, coupling) in along.iter().zip(&linkage.couplings) {
+        if let Some(sum) = torque.get_mut(coupling.coordinate) {
+            *sum = *sum + tau.constant(coupling.multiplier) * *tau;
+        }
+    }
+    torque
+}
+
+/// The same of a chain all of whose joints move by themselves.
+fn serial<S: Scalar>(
     arm: &Arm,
     gravity: [f64; 3],
     q: &[Position<S>],

@@ -50,6 +50,10 @@ pub(super) fn model(module: &Module) -> Vec<String> {
         });
     }
     lines.push(String::new());
+    if let Some(linkage) = &module.arm.linkage {
+        let equations = linkage.equations(module.arm).join(", ");
+        lines.extend([format!(" Joints that follow others (rad or m): {equations}."), String::new()]);
+    }
     for (number, psi) in (1..).zip(&kept) {
         lines.push(format!(" - ψ_{number} = {psi}"));
     }

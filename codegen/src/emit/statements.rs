@@ -66,7 +66,7 @@ pub(super) fn body(graph: &Graph) -> Result<TokenStream, Error> {
 pub(super) fn parts(graph: &Graph) -> Result<(Vec<TokenStream>, Vec<TokenStream>), Error> {
     let uses = graph.uses();
     let mut names = Names::default();
-    let mut statements = trigonometry(graph, &mut names);
+    let mut statements = trigonometry(graph, &mut names)?;
     let mut written: Vec<Written> = Vec::with_capacity(graph.nodes.len());
     for (id, &node) in graph.nodes.iter().enumerate() {
         let expression = write(graph, node, &written)?;
@@ -86,7 +86,7 @@ pub(super) fn parts(graph: &Graph) -> Result<(Vec<TokenStream>, Vec<TokenStream>
 }
 
 /// One call for each joint whose sine or cosine occurs.
-fn trigonometry(graph: &Graph, names: &mut Names) -> Vec<TokenStream> {
+fn trigonometry(graph: &Graph, names: &mut Names) -> Result<Vec<TokenStream>, Error> {
     let mut joints: BTreeMap<usize, (bool, bool)> = BTreeMap::new();
     for node in &graph.nodes {
         match *node {
@@ -103,9 +103,18 @@ fn trigonometry(graph: &Graph, names: &mut Names) -> Vec<TokenStream> {
                 names.taken.insert(ident.to_string());
                 if used { quote!(#ident) } else { quote!(_) }
             };
-            let (sin, cos, j) = (part(sin, "sin"), part(cos, "cos"), literal::count(j));
-            let call = sines::call(&graph.sines, quote!(q[#j]));
-            quote!(let (#sin, #cos) = #call;)
+            let (sin, cos) = (part(sin, "sin"), part(cos, "cos"));
+            let divided = graph.parts.get(j);
+            let j = literal::count(j);
+            let angle = match divided {
+                Some(&part) if part != 1 => {
+                    let factor = literal::float(1.0 / f64::from(part))?;
+                    quote!(q[#j] * #factor)
+                }
+                _ => quote!(q[#j]),
+            };
+            let call = sines::call(&graph.sines, angle);
+            Ok(quote!(let (#sin, #cos) = #call;))
         })
         .collect()
 }

@@ -8,6 +8,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 use super::Graph;
 use super::node::{Name, Node, NodeId, Variable};
 use crate::dynamics::Scalar;
+use crate::lagrangian::{MAX_JOINTS, WHOLE};
 use crate::sines::Sines;
 
 /// Collects the nodes of a graph under construction.
@@ -20,6 +21,7 @@ pub struct Builder {
 struct State {
     nodes: Vec<Node>,
     names: Vec<Option<Name>>,
+    parts: Option<[u8; MAX_JOINTS]>,
     // Only looked up, never iterated: its order cannot reach the output.
     known: HashMap<Node, NodeId, BuildHasherDefault<Mixer>>,
 }
@@ -68,7 +70,12 @@ impl Builder {
         self.intern(Node::Input(variable))
     }
 
-    /// (sin q_j, cos q_j).
+    /// Lets [`Builder::sin_cos`] stand for sines of q_j / part_j.
+    pub fn divide(&self, parts: [u8; MAX_JOINTS]) {
+        self.state.borrow_mut().parts = Some(parts);
+    }
+
+    /// (sin q_j, cos q_j); of the part of q_j that [`Builder::divide`] names.
     pub fn sin_cos(&self, joint: usize) -> (Expr<'_>, Expr<'_>) {
         (self.intern(Node::Sin(joint)), self.intern(Node::Cos(joint)))
     }
@@ -80,7 +87,7 @@ impl Builder {
 
     /// The graph of `outputs`, without what they do not need.
     pub fn finish(self, outputs: &[NodeId]) -> Graph {
-        let State { nodes, names, .. } = self.state.into_inner();
+        let State { nodes, names, parts, .. } = self.state.into_inner();
         let mut needed = vec![false; nodes.len()];
         for &output in outputs {
             needed[output] = true;
@@ -92,8 +99,13 @@ impl Builder {
             }
         }
         let mut new = vec![0; nodes.len()];
-        let mut graph =
-            Graph { nodes: Vec::new(), names: Vec::new(), outputs: Vec::new(), sines: Sines::default() };
+        let mut graph = Graph {
+            nodes: Vec::new(),
+            names: Vec::new(),
+            outputs: Vec::new(),
+            sines: Sines::default(),
+            parts: parts.unwrap_or(WHOLE),
+        };
         for (id, (node, name)) in nodes.into_iter().zip(names).enumerate() {
             if needed[id] {
                 new[id] = graph.nodes.len();

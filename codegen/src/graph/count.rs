@@ -48,6 +48,8 @@ impl Graph {
                 Node::Input(_) | Node::Constant(_) => {}
             }
         }
+        count.mul +=
+            turned.iter().filter(|&&joint| self.parts.get(joint).is_some_and(|&part| part != 1)).count();
         count.trig_pairs = turned.len();
         count
     }

@@ -14,6 +14,7 @@ pub use build::{Builder, Expr};
 pub use count::{Operations, TRIG_PAIR};
 pub use node::{Name, Node, NodeId, Variable};
 
+use crate::lagrangian::MAX_JOINTS;
 use crate::sines::Sines;
 
 /// A finished graph.
@@ -31,4 +32,6 @@ pub struct Graph {
     pub outputs: Vec<NodeId>,
     /// How sines and cosines are taken; the builder leaves the default.
     pub sines: Sines,
+    /// By joint the power of 2 by which its angle is divided before its sine and cosine are taken; mostly 1.
+    pub parts: [u8; MAX_JOINTS],
 }

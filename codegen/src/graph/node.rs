@@ -21,9 +21,9 @@ pub enum Variable {
 pub enum Node {
     /// An input.
     Input(Variable),
-    /// sin q_j.
+    /// sin q_j, or that of a part of q_j: [`super::Graph::parts`].
     Sin(usize),
-    /// cos q_j.
+    /// cos q_j, likewise.
     Cos(usize),
     /// A finite constant, by its bits.
     Constant(u64),

@@ -1,7 +1,6 @@
 //! Derivatives of a graph's outputs, without differences of values.
 
 use super::{Graph, Node, Variable};
-use crate::sines::Angle;
 
 impl Graph {
     /// ∂τ_i/∂x of every output i along one rate `x`, at positions `q` (rad or m) and rates `qd`, `v_r`, `a_r`; inputs beyond
@@ -11,7 +10,7 @@ impl Graph {
     /// column j of Ĉ: what the emitted code computes with, and no other model. A position has no slope here.
     pub fn slopes(&self, q: &[f64], qd: &[f64], v_r: &[f64], a_r: &[f64], x: Variable) -> Vec<f64> {
         let read = |slice: &[f64], joint: usize| slice.get(joint).copied().unwrap_or(0.0);
-        let trig: Vec<(f64, f64)> = q.iter().map(|&q| q.sin_cos_by(&self.sines)).collect();
+        let trig = self.turned(q);
         let mut all: Vec<(f64, f64)> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
             let pair = match *node {

@@ -21,8 +21,11 @@ pub struct Coordinates {
 }
 
 impl Coordinates {
-    /// Those of an arm; `None` where no two neighbouring joints turn about parallel axes.
+    /// Those of an arm; `None` where no two neighbouring joints turn about parallel axes, or joints follow others.
     pub fn of(arm: &Arm) -> Option<Self> {
+        if arm.linkage.is_some() {
+            return None;
+        }
         let turns = |i: usize| arm.joints[i].kind == JointKind::Revolute;
         let sign = |i: usize| {
             let pose = &arm.joints[i].pose;

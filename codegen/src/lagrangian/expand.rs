@@ -6,7 +6,8 @@ use rayon::prelude::*;
 
 use super::Lagrangian;
 use super::coefficients::{Accuracy, Entry, Layers, distinct};
-use super::function::{Function, MAX_JOINTS};
+use super::coupled;
+use super::function::{Function, MAX_JOINTS, WHOLE};
 use super::transform::{Axis, grid_point, grid_size, transform};
 use crate::arm::{Arm, JointKind, Uncertainty};
 use crate::dynamics::{Size, Sizes, gravity, mass_matrix};
@@ -53,8 +54,10 @@ pub fn expand_family(arm: &Arm, uncertainty: &Uncertainty) -> Lagrangian {
 fn entries(arm: &Arm) -> Vec<(Expansion, Accuracy)> {
     let n = arm.dof();
     // The nodes of a prismatic axis are −1, 0 and 1 m.
-    let sizes = Sizes::new(arm, &vec![1.0; n]);
-    let grown: f64 = arm.joints.iter().map(|joint| lebesgue(joint.kind)).product();
+    let sizes = Sizes::within(arm, &vec![1.0; arm.moving().len()]);
+    let grown: f64 = arm.moving().iter().map(|joint| lebesgue(joint.kind)).product::<f64>();
+    let (spread, steep) = arm.linkage.as_ref().map_or((1.0, 1.0), |linkage| coupled::growth(linkage));
+    let grown = grown * spread;
     let own =
         |raw: Expansion, size: Size| significant(raw, ROUNDING * size.exact, SAMPLED * grown * size.exact);
     let d = expand_mass_matrix(arm);
@@ -71,8 +74,9 @@ fn entries(arm: &Arm) -> Vec<(Expansion, Accuracy)> {
             Entry::H(i, j, k) => {
                 let parts = [(i, j), (i, k), (j, k)].map(|(i, j)| &d[&(i.min(j), i.max(j))]);
                 let raw = christoffel(parts.map(|part| &part.0), [k, j, i]);
-                // A derivative along one joint is at most twice as large, and three are halved.
-                let known = Accuracy::sum(parts.iter().map(|part| (1.0, part.1)));
+                // A derivative along one joint is at most twice as large, or as often as others follow it, and three are
+                // halved.
+                let known = Accuracy::sum(parts.iter().map(|part| (steep, part.1)));
                 significant(raw, known.resolution, known.error)
             }
             Entry::G(i) => g[i].clone(),
@@ -92,6 +96,14 @@ fn lebesgue(kind: JointKind) -> f64 {
 
 /// D by rows, from the diagonal on.
 fn expand_mass_matrix(arm: &Arm) -> Vec<Expansion> {
+    match &arm.linkage {
+        None => mass_matrix_terms(arm),
+        Some(linkage) => coupled::mass_matrix(arm, linkage, &mass_matrix_terms(&linkage.chain)),
+    }
+}
+
+/// The same for joints that move by themselves.
+fn mass_matrix_terms(arm: &Arm) -> Vec<Expansion> {
     let n = arm.dof();
     // D does not depend on the first joint.
     let axes: Vec<Axis> = arm
@@ -113,6 +125,14 @@ fn expand_mass_matrix(arm: &Arm) -> Vec<Expansion> {
 
 /// G by joint.
 fn expand_gravity(arm: &Arm) -> Vec<Expansion> {
+    match &arm.linkage {
+        None => gravity_terms(arm),
+        Some(linkage) => coupled::gravity(arm, linkage, &gravity_terms(&linkage.chain)),
+    }
+}
+
+/// The same for joints that move by themselves.
+fn gravity_terms(arm: &Arm) -> Vec<Expansion> {
     let axes: Vec<Axis> = arm.joints.iter().map(|joint| Axis::new(joint.kind, 1)).collect();
     let samples = sample(&axes, |q| gravity(arm, q));
     (0..arm.dof())
@@ -146,10 +166,10 @@ fn collect(arm: &Arm, axes: &[Axis], samples: &[f64]) -> Expansion {
         }
         // c e^{iκq} and its conjugate partner at −κ together make 2 Re c cos(κq) − 2 Im c sin(κq).
         match kappa.iter().find(|&&k| k != 0) {
-            None => terms.push((Function { kappa, power, sine: false }, re)),
+            None => terms.push((Function { kappa, power, sine: false, part: WHOLE }, re)),
             Some(&first) if first > 0 => {
-                terms.push((Function { kappa, power, sine: false }, 2.0 * re));
-                terms.push((Function { kappa, power, sine: true }, -2.0 * im));
+                terms.push((Function { kappa, power, sine: false, part: WHOLE }, 2.0 * re));
+                terms.push((Function { kappa, power, sine: true, part: WHOLE }, -2.0 * im));
             }
             Some(_) => {}
         }

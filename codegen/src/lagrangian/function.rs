@@ -7,7 +7,7 @@ use std::fmt;
 /// Most joints an arm may have.
 pub const MAX_JOINTS: usize = 8;
 
-/// One function ψ(q) = Π_j q_j^power_j · (cos or sin)(κ·q).
+/// One function ψ(q) = Π_j q_j^power_j · (cos or sin)(Σ_j κ_j q_j / part_j).
 ///
 /// Holds: the first nonzero entry of κ is positive; κ = 0 goes with the cosine; κ_j = 0 for prismatic
 /// joints and power_j = 0 for revolute ones.
@@ -19,27 +19,37 @@ pub struct Function {
     pub power: [u8; MAX_JOINTS],
     /// True for the sine.
     pub sine: bool,
+    /// By joint the part of its angle that κ counts, the same in all functions of one arm: [`crate::arm::Arm::parts`].
+    pub part: [u8; MAX_JOINTS],
 }
+
+/// Whole angles.
+pub const WHOLE: [u8; MAX_JOINTS] = [1; MAX_JOINTS];
 
 impl Function {
     /// The constant 1.
-    pub const ONE: Self = Self { kappa: [0; MAX_JOINTS], power: [0; MAX_JOINTS], sine: false };
+    pub const ONE: Self = Self { kappa: [0; MAX_JOINTS], power: [0; MAX_JOINTS], sine: false, part: WHOLE };
 
     /// Canonical form of Π q^power · trig(κ·q): the function and the sign that the flip of κ costs.
     /// `None` where the function is sin 0 = 0.
-    pub fn canonical(kappa: [i8; MAX_JOINTS], power: [u8; MAX_JOINTS], sine: bool) -> Option<(Self, f64)> {
-        match kappa.iter().find(|&&k| k != 0) {
-            None if sine => None,
+    pub fn canonical(self) -> Option<(Self, f64)> {
+        match self.kappa.iter().find(|&&k| k != 0) {
+            None if self.sine => None,
             Some(&first) if first < 0 => {
-                let sign = if sine { -1.0 } else { 1.0 };
-                Some((Self { kappa: kappa.map(|k| -k), power, sine }, sign))
+                let sign = if self.sine { -1.0 } else { 1.0 };
+                Some((Self { kappa: self.kappa.map(|k| -k), ..self }, sign))
             }
-            _ => Some((Self { kappa, power, sine }, 1.0)),
+            _ => Some((self, 1.0)),
         }
     }
 
+    /// Frequency of joint `j`: κ_j / part_j.
+    pub fn frequency(&self, j: usize) -> f64 {
+        f64::from(self.kappa[j]) / f64::from(self.part[j])
+    }
+
     /// ∂ψ/∂q_k as (function, factor); `None` where it vanishes. For a prismatic joint the factor is
-    /// the exponent, for a revolute one ±κ_k.
+    /// the exponent, for a revolute one ±κ_k / part_k.
     pub fn derivative(&self, k: usize) -> Option<(Self, f64)> {
         let mut out = *self;
         if self.power[k] > 0 {
@@ -51,15 +61,15 @@ impl Function {
         }
         out.sine = !self.sine;
         let sign = if self.sine { 1.0 } else { -1.0 };
-        Some((out, sign * f64::from(self.kappa[k])))
+        Some((out, sign * self.frequency(k)))
     }
 
     /// ψ(q); joints beyond the slice count as 0.
     pub fn evaluate(&self, q: &[f64]) -> f64 {
         let mut angle = 0.0;
         let mut monomial = 1.0;
-        for ((&q, &k), &power) in q.iter().zip(&self.kappa).zip(&self.power) {
-            angle += f64::from(k) * q;
+        for (j, (&q, &power)) in q.iter().zip(&self.power).enumerate() {
+            angle += self.frequency(j) * q;
             for _ in 0..power {
                 monomial *= q;
             }
@@ -69,7 +79,9 @@ impl Function {
 
     /// True for a function other than 1 in which every joint occurs once at most: |κ_j| ≤ 1, powers ≤ 1.
     pub fn is_first_degree(&self) -> bool {
-        *self != Self::ONE && self.kappa.iter().all(|k| k.abs() <= 1) && self.power.iter().all(|&p| p <= 1)
+        *self != Self::ONE
+            && (0..MAX_JOINTS).all(|j| self.kappa[j].unsigned_abs() <= self.part[j])
+            && self.power.iter().all(|&p| p <= 1)
     }
 
     /// The first joint that occurs; [`MAX_JOINTS`] for the constant.
@@ -99,7 +111,7 @@ impl Function {
         };
         let mut out = BTreeMap::new();
         for (kappa, k) in [(pair(1), sum), (pair(-1), difference)] {
-            if let Some((psi, sign)) = Self::canonical(kappa, power, sine) {
+            if let Some((psi, sign)) = (Self { kappa, power, sine, ..*self }).canonical() {
                 *out.entry(psi).or_insert(0.0) += sign * k;
             }
         }
@@ -107,7 +119,8 @@ impl Function {
         out
     }
 
-    /// A name that is an identifier: `one`, `cos_q2_q3`, `sin_q2_m2q3`, `q3p2_cos_q2`; `m` stands for minus.
+    /// A name that is an identifier: `one`, `cos_q2_q3`, `sin_q2_m2q3`, `q3p2_cos_q2`; `m` stands for minus, and
+    /// `3d2q1` for 3/2 q1.
     pub fn identifier(&self) -> String {
         let mut parts = Vec::new();
         for (j, &power) in self.power.iter().enumerate() {
@@ -121,11 +134,24 @@ impl Function {
             parts.push(if self.sine { "sin" } else { "cos" }.to_string());
             for (j, &k) in self.kappa.iter().enumerate().filter(|&(_, &k)| k != 0) {
                 let sign = if k < 0 { "m" } else { "" };
-                let size = if k.abs() == 1 { String::new() } else { k.abs().to_string() };
+                let size = match self.multiple(j) {
+                    (1, 1) => String::new(),
+                    (k, 1) => k.to_string(),
+                    (k, part) => format!("{k}d{part}"),
+                };
                 parts.push(format!("{sign}{size}q{}", j + 1));
             }
         }
         if parts.is_empty() { "one".to_string() } else { parts.join("_") }
+    }
+
+    /// |κ_j| over part_j in lowest terms.
+    fn multiple(&self, j: usize) -> (u8, u8) {
+        let (mut k, mut part) = (self.kappa[j].unsigned_abs(), self.part[j]);
+        while part > 1 && k.is_multiple_of(2) {
+            (k, part) = (k / 2, part / 2);
+        }
+        (k, part)
     }
 
     /// Sum of |κ| and of the exponents.
@@ -171,7 +197,11 @@ impl fmt::Display for Function {
                 (false, false) => " + ",
                 (false, true) => " - ",
             };
-            let size = if k.abs() == 1 { String::new() } else { format!("{} ", k.abs()) };
+            let size = match self.multiple(j) {
+                (1, 1) => String::new(),
+                (k, 1) => format!("{k} "),
+                (k, part) => format!("{k}/{part} "),
+            };
             angle.push_str(&format!("{sign}{size}q{}", j + 1));
         }
         if !angle.is_empty() {

@@ -2,6 +2,7 @@
 
 mod absolute;
 mod coefficients;
+mod coupled;
 mod expand;
 mod function;
 mod transform;
@@ -10,7 +11,7 @@ mod values;
 pub use absolute::{Absolute, Coordinates};
 pub use coefficients::{Accuracy, Coefficient, Entry, Place};
 pub use expand::{Expansion, expand, expand_family};
-pub use function::{Function, MAX_JOINTS};
+pub use function::{Function, MAX_JOINTS, WHOLE};
 pub use values::Values;
 
 /// A linear combination Σ k_l ψ_l: pairs (index l into [`Lagrangian::functions`], k_l), by ascending l, without zeros.

@@ -6,10 +6,14 @@ mod hash;
 mod json;
 mod named;
 mod plain;
+mod repair;
 mod structure;
 mod wording;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+
+use serde_json::Value;
 
 use crate::error::{Error, Faults};
 use crate::spec::Spec;
@@ -40,20 +44,42 @@ impl Loaded {
     }
 }
 
+/// A specification as far as it can be read.
+#[derive(Clone, Debug)]
+pub struct Draft {
+    /// What has the right shape, with stand-ins for what has not; `None` where too little has.
+    pub loaded: Option<Loaded>,
+    /// What has the wrong shape.
+    pub faults: Faults,
+    /// The sections that are stand-ins or left out, such as `control`.
+    pub lost: BTreeSet<String>,
+}
+
 /// Reads the specification file at `path`.
 ///
 /// # Errors
 /// [`Error::Input`] where the file cannot be read, and those of [`parse`].
 pub fn load(path: &Path) -> Result<Loaded, Error> {
-    let text = std::fs::read_to_string(path).map_err(|error| {
+    parse(&text(path)?, path)
+}
+
+/// Reads as much of the specification file at `path` as can be.
+///
+/// # Errors
+/// [`Error::Input`] where the file cannot be read.
+pub fn draft(path: &Path) -> Result<Draft, Error> {
+    drafted(&text(path)?, path)
+}
+
+fn text(path: &Path) -> Result<String, Error> {
+    std::fs::read_to_string(path).map_err(|error| {
         Error::input(
             path,
             "",
             format!("cannot be read ({error})"),
             "give the path of a specification file, UTF-8 encoded JSON",
         )
-    })?;
-    parse(&text, path)
+    })
 }
 
 /// Reads a specification from `text`, and the files that it names; `path` is the file that messages name and that
@@ -63,13 +89,37 @@ pub fn load(path: &Path) -> Result<Loaded, Error> {
 /// [`Error::Input`] with line and column where the text is not JSON, else with every field that is missing,
 /// unknown, repeated, of the wrong type or a text with hidden characters (see [`plain`]).
 pub fn parse(text: &str, path: &Path) -> Result<Loaded, Error> {
-    let mut faults = Faults::of(path);
-    let Some(mut value) = json::read(text, &mut faults) else { return Err(faults.into_error()) };
-    plain::check(&value, &mut faults);
-    structure::check(&value, &mut faults)?;
-    if !faults.is_empty() {
-        return Err(faults.into_error());
+    let Draft { loaded, faults, .. } = drafted(text, path)?;
+    match loaded {
+        Some(loaded) => faults.finish(loaded),
+        None => Err(faults.into_error()),
     }
+}
+
+/// The same, as far as it goes.
+fn drafted(text: &str, path: &Path) -> Result<Draft, Error> {
+    let mut faults = Faults::of(path);
+    let nothing = |faults| Draft { loaded: None, faults, lost: BTreeSet::new() };
+    let Some(mut value) = json::read(text, &mut faults) else { return Ok(nothing(faults)) };
+    let before = faults.count();
+    plain::check(&value, &mut faults);
+    let hidden = faults.count() > before;
+    structure::check(&value, &mut faults)?;
+    if hidden {
+        // Names that are not what they look like are good for nothing more.
+        return Ok(nothing(faults));
+    }
+    if faults.is_empty() {
+        let loaded = Some(typed(value, path)?);
+        return Ok(Draft { loaded, faults, lost: BTreeSet::new() });
+    }
+    let Some(lost) = structure::repair(&mut value)? else { return Ok(nothing(faults)) };
+    // What cannot be read even so has faults enough.
+    Ok(Draft { loaded: typed(value, path).ok(), faults, lost })
+}
+
+/// The specification that `value`, which has its shape, stands for.
+fn typed(mut value: Value, path: &Path) -> Result<Loaded, Error> {
     json::narrow(&mut value);
     let spec: Spec = serde_json::from_value(value).map_err(|error| {
         Error::input(path, "", format!("does not fit the schema ({error})"), "compare it with the schema")

@@ -8,14 +8,14 @@ use super::wording::{entry, member};
 use crate::error::Faults;
 use crate::text::is_hidden;
 
-/// Whether `value`, a name or path that stands at `field` of `file`, holds no hidden character (see
+/// Whether `value`, a name or path that stands at `field` of `file`, in `line` where that is known, holds no hidden character (see
 /// [`crate::text::is_hidden`]); adds a fault where it does.
-pub fn plain(value: &str, file: &Path, field: &str, faults: &mut Faults) -> bool {
+pub fn plain(value: &str, file: &Path, line: Option<usize>, field: &str, faults: &mut Faults) -> bool {
     let hidden = value.chars().find(|c| is_hidden(*c));
     if let Some(c) = hidden {
         let problem = format!("is {value:?}, with the hidden character U+{:04X}", u32::from(c));
         let mend = "write it without control characters, line breaks and marks of writing direction";
-        faults.push_in(file, field, problem, mend);
+        faults.push_at(file, line, field, problem, mend);
     }
     hidden.is_none()
 }
@@ -29,7 +29,7 @@ pub(super) fn check(value: &Value, faults: &mut Faults) {
 fn walk(value: &Value, field: &str, file: &Path, faults: &mut Faults) {
     match value {
         Value::String(text) => {
-            plain(text, file, field, faults);
+            plain(text, file, None, field, faults);
         }
         Value::Array(list) => {
             for (index, value) in list.iter().enumerate() {
@@ -39,7 +39,7 @@ fn walk(value: &Value, field: &str, file: &Path, faults: &mut Faults) {
         Value::Object(map) => {
             for (key, value) in map {
                 let field = member(field, key);
-                plain(key, file, &field, faults);
+                plain(key, file, None, &field, faults);
                 walk(value, &field, file, faults);
             }
         }

@@ -1,5 +1,6 @@
 //! Missing, unknown and mistyped fields: the schema's verdict, one plain message for each mistake.
 
+use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
 use jsonschema::error::ValidationErrorKind as Kind;
@@ -7,6 +8,7 @@ use jsonschema::paths::{Location, LocationSegment};
 use jsonschema::{ValidationError, Validator};
 use serde_json::Value;
 
+use super::repair::repaired;
 use super::wording::{describe, either, entry, member, nearest, options, quoted, resolve, show, tag};
 use crate::error::{Error, Faults};
 use crate::spec::Spec;
@@ -35,22 +37,35 @@ fn cap_integers(schema: &mut Value) {
     }
 }
 
+// Compiling the schema costs more than checking a file, and build scripts check many.
+static SCHEMA: LazyLock<Value> = LazyLock::new(schema);
+static VALIDATOR: LazyLock<Result<Validator, String>> =
+    LazyLock::new(|| jsonschema::validator_for(&SCHEMA).map_err(|error| error.to_string()));
+
+fn validator() -> Result<&'static Validator, Error> {
+    VALIDATOR.as_ref().map_err(|error| Error::Internal(error.clone()))
+}
+
+/// Brings `value` into the shape of a [`Spec`] where that can be done; the sections that had to be left out.
+///
+/// # Errors
+/// [`Error::Internal`] where the schema itself is broken.
+pub(super) fn repair(value: &mut Value) -> Result<Option<BTreeSet<String>>, Error> {
+    Ok(repaired(value, validator()?, &SCHEMA))
+}
+
 /// Adds a fault for every place where `value` has not the shape of a [`Spec`].
 ///
 /// # Errors
 /// [`Error::Internal`] where the schema itself is broken.
 pub(super) fn check(value: &Value, faults: &mut Faults) -> Result<(), Error> {
-    // Compiling the schema costs more than checking a file, and build scripts check many.
-    static SCHEMA: LazyLock<Value> = LazyLock::new(schema);
-    static VALIDATOR: LazyLock<Result<Validator, String>> =
-        LazyLock::new(|| jsonschema::validator_for(&SCHEMA).map_err(|error| error.to_string()));
-    let validator = VALIDATOR.as_ref().map_err(|error| Error::Internal(error.clone()))?;
+    let validator = validator()?;
     let errors: Vec<_> = validator.iter_errors(value).collect();
     Explainer { schema: &SCHEMA, faults }.all(&errors);
     Ok(())
 }
 
-struct Explainer<'a> {
+pub(super) struct Explainer<'a> {
     schema: &'a Value,
     faults: &'a mut Faults,
 }
@@ -168,19 +183,27 @@ impl<'a> Explainer<'a> {
         conditional.and_then(|head| self.schema.pointer(head)).unwrap_or(parent)
     }
 
+    /// The fields of the object in which `keyword` was violated.
+    pub(super) fn known(schema: &'a Value, keyword: &Location) -> Vec<String> {
+        properties(asked(schema, keyword).0).map(str::to_string).collect()
+    }
+
     /// The part of the schema that holds the violated keyword, and the keyword's own value.
     fn asked(&self, keyword: &Location) -> (&'a Value, &'a Value) {
-        static NOTHING: Value = Value::Null;
-        let schema = self.schema;
-        let pointer = keyword.as_str();
-        let parent = pointer.rsplit_once('/').map_or("", |(head, _)| head);
-        let at = |p: &str| schema.pointer(p).unwrap_or(&NOTHING);
-        (at(parent), at(pointer))
+        asked(self.schema, keyword)
     }
 }
 
+fn asked<'a>(schema: &'a Value, keyword: &Location) -> (&'a Value, &'a Value) {
+    static NOTHING: Value = Value::Null;
+    let pointer = keyword.as_str();
+    let parent = pointer.rsplit_once('/').map_or("", |(head, _)| head);
+    let at = |p: &str| schema.pointer(p).unwrap_or(&NOTHING);
+    (at(parent), at(pointer))
+}
+
 /// The branch of an untagged union that the user evidently meant: right at its top, and least wrong below.
-fn meant<'a>(
+pub(super) fn meant<'a>(
     error: &ValidationError<'_>,
     context: &'a [Vec<ValidationError<'static>>],
 ) -> Option<&'a [ValidationError<'static>]> {

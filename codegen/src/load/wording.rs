@@ -2,8 +2,19 @@
 
 use serde_json::Value;
 
-/// Field path of `key` inside `path`.
+/// Most characters of a key that a field path shows.
+const LONGEST_KEY: usize = 100;
+
+/// Field path of `key` inside `path`; a key of more than 100 characters is cut.
 pub(super) fn member(path: &str, key: &str) -> String {
+    let cut: String;
+    let key = match key.char_indices().nth(LONGEST_KEY) {
+        Some((end, _)) => {
+            cut = format!("{}…", key.get(..end).unwrap_or_default());
+            &cut
+        }
+        None => key,
+    };
     if path.is_empty() { key.to_string() } else { format!("{path}.{key}") }
 }
 

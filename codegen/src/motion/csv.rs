@@ -7,6 +7,9 @@ use crate::load::Named;
 /// Most faults told of one file: a wrong column otherwise fills the screen.
 const MOST_FAULTS: usize = 10;
 
+/// Most rows: each becomes a piece of a spline in the module, some 80 bytes a joint.
+const MOST_ROWS: usize = 20_000;
+
 /// Reads a table of times, s, and positions, rad or m, one row an instant; a first line of words is skipped.
 /// The end velocities are those of the parabolas through the first and last three points.
 /// `None` after at least one fault was added.
@@ -37,6 +40,12 @@ pub(super) fn read(table: &Named, dof: usize, faults: &mut Faults) -> Option<Spl
         let header = number == 0 && record.iter().all(|cell| cell.parse::<f64>().is_err());
         if header {
             continue;
+        }
+        if times.len() == MOST_ROWS {
+            let problem = format!("is row {} of numbers, and at most {MOST_ROWS} are read", MOST_ROWS + 1);
+            let mend = "keep every second row, or every tenth: a spline goes through the rows that are left";
+            faults.push_in(path, format!("line {line}"), problem, mend);
+            return None;
         }
         match row(&record, dof, times.last().copied()) {
             Ok((t, q)) => {

@@ -40,7 +40,7 @@ pub(super) fn advice(
         let angle = distance(&joint.pose.rotation, &other.pose.rotation);
         (angle > own).then(|| format!("{} by {} rad", joint.name, printed_up(angle)))
     };
-    let joints: Vec<String> = given.joints.iter().zip(&rounded.joints).filter_map(off).collect();
+    let joints: Vec<String> = given.moving().iter().zip(rounded.moving()).filter_map(off).collect();
     let whose = match joints.as_slice() {
         [] => "frames of links that no joint moves".to_string(),
         joints => format!("rotations of joints ({})", joints.join(", ")),

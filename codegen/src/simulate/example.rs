@@ -175,7 +175,7 @@ fn arm(links: &[Link]) -> Arm {
         });
         pose = end;
     }
-    Arm { gravity: [0.0, 0.0, -9.81], joints, tip: pose }
+    Arm { gravity: [0.0, 0.0, -9.81], joints, tip: pose, linkage: None }
 }
 
 /// A body of the frame `at`, in the frame that `at` is placed in: x → R x + t.

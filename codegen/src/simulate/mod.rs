@@ -40,6 +40,9 @@ const SUBSTEPS: usize = 10;
 /// Most Runge–Kutta steps of a run: some minutes of computing.
 const MOST_STEPS: f64 = 1e8;
 
+/// Most control periods of a run: every one is recorded.
+const MOST_PERIODS: f64 = 1e6;
+
 /// Everything that a simulation needs.
 #[derive(Clone, Copy, Debug)]
 pub struct Scenario<'a> {
@@ -270,6 +273,13 @@ fn steps(scenario: &Scenario) -> Result<(u32, u32), Error> {
                 design.period
             ),
             "simulate a shorter time, or take fewer substeps, to stay under 1e8 steps",
+        );
+    }
+    if periods > MOST_PERIODS {
+        return refuse(
+            "simulation.duration",
+            format!("takes {periods:e} control periods of {} s", design.period),
+            "simulate a shorter time, to stay under 1e6 periods: each of them is recorded",
         );
     }
     Ok((periods as u32, substeps as u32))

@@ -40,6 +40,7 @@ pub fn judge(cases: &[Case]) {
         let lines = faults(folder.path(), &[spec]);
         let field = if case.field.is_empty() { String::new() } else { format!("{}: ", case.field) };
         let start = format!("{}: {field}", folder.path().join(case.file).display());
+        let lines: Vec<String> = lines.iter().map(|line| without_line(line, case)).collect();
         let good = matches!(lines.as_slice(), [line] if line.starts_with(&start)
             && in_order(&line[start.len()..], case.words)
             && line[start.len()..].contains("; "));
@@ -49,6 +50,21 @@ pub fn judge(cases: &[Case]) {
         }
     }
     assert!(failures.is_empty(), "{} of {} cases:\n{}", failures.len(), cases.len(), failures.join("\n"));
+}
+
+/// A message without the line number behind a URDF file's name, which must be there where a field of it is named.
+fn without_line(message: &str, case: &Case) -> String {
+    let Some((file, rest)) = message.split_once(".urdf:").filter(|_| case.file.ends_with(".urdf")) else {
+        return message.to_string();
+    };
+    let digits = rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    if digits == 0 && !case.field.is_empty() {
+        return format!("no line in {message}");
+    }
+    format!(
+        "{file}.urdf:{}",
+        &rest[digits..].strip_prefix(':').filter(|_| digits > 0).map_or(rest, |rest| rest)
+    )
 }
 
 fn in_order(mut text: &str, words: &[&str]) -> bool {

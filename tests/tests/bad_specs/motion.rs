@@ -197,6 +197,25 @@ const CASES: &[Case] = &[
         "simulation.substeps",
         &["is 0", "at least 1"],
     ),
+    case(
+        "more rows than a module should hold",
+        |i| {
+            i.csv(&(0..30_000).map(|k| format!("{}.0,0.1,0.2,-1.2\n", k)).collect::<String>());
+        },
+        "line 20001",
+        &["is row 20001 of numbers", "at most 20000 are read", "keep every second row"],
+    )
+    .inside("motion.csv"),
+    case(
+        "more waypoints than a module should hold",
+        |i| {
+            let times: Vec<f64> = (0..20_001).map(f64::from).collect();
+            let positions = vec![[0.1, 0.2, -1.2]; 20_001];
+            i.set("/motion", json!({ "waypoints": { "times": times, "positions": positions } }));
+        },
+        "motion.waypoints.times",
+        &["has 20001 entries", "write at most 20000"],
+    ),
 ];
 
 #[test]

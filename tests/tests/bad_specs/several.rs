@@ -130,8 +130,8 @@ fn in_the_urdf_and_in_the_specification() {
     expect(
         &[input],
         &[
-            "arm.urdf: link[arm].inertial.mass: is -1",
-            "arm.urdf: joint[turn].dynamics.damping: is -1",
+            "arm.urdf:1: link[arm].inertial.mass: is -1",
+            "arm.urdf:1: joint[turn].dynamics.damping: is -1",
             "spec0.json: control.period: is 0",
         ],
     );
@@ -166,4 +166,41 @@ fn a_wrong_number_of_links_is_one_mistake() {
     let mut input = Input::good();
     input.set("/arm/dh/links", json!([])).control("W", json!([1.0, 2.0, 3.0]));
     expect(&[input], &["spec0.json: arm.dh.links: has 0 links"]);
+}
+
+#[test]
+fn a_misspelt_field_hides_no_other_fault() {
+    let mut input = Input::good();
+    input.remove("/control/period").control("peroid", json!(-1.0)).set("/colour", json!(1));
+    input.set("/model/shared/functions", json!(0)).link(0, "mass", json!(-1.0));
+    expect(
+        &[input],
+        &[
+            "spec0.json: control.peroid: is not a field; did you mean `period`?",
+            "spec0.json: colour: is not a field",
+            "spec0.json: control.period: is -1",
+            "spec0.json: model.shared.functions: is 0",
+            "spec0.json: arm.dh.links[0].mass: is -1",
+        ],
+    );
+}
+
+#[test]
+fn a_section_that_cannot_be_read_hides_no_fault_of_another() {
+    let mut input = Input::good();
+    input.control("W", json!("stiff")).set("/motion/quintic/duration", json!(0)).link(1, "mass", json!(-2.0));
+    let mut other = Input::good();
+    other.set("/arm/dh/links/0/joint", json!("helical")).control("period", json!(0.0));
+    other.set("/measure/tube/position_error", json!(-0.1));
+    expect(
+        &[input, other],
+        &[
+            "spec0.json: control.W: is \"stiff\"",
+            "spec0.json: motion.quintic.duration: is 0",
+            "spec0.json: arm.dh.links[1].mass: is -2",
+            "spec1.json: arm.dh.links[0].joint: is \"helical\"",
+            "spec1.json: control.period: is 0",
+            "spec1.json: measure.tube.position_error: is -0.1",
+        ],
+    );
 }

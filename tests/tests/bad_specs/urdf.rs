@@ -32,7 +32,7 @@ const CASES: &[Case] = &[
             i.urdf("<link name=\"base\">");
         },
         "",
-        &["is not a URDF file", "mend it"],
+        &["is not a URDF file", "robot", "mend the XML there"],
     )
     .inside("arm.urdf"),
     case(
@@ -118,8 +118,9 @@ const CASES: &[Case] = &[
     case(
         "movable branch",
         |i| {
-            one_joint(i, &(link("finger") + &joint("grip", "revolute", "base", "finger", "")));
-            i.set("/arm/tip", json!("arm"));
+            let finger = link("finger") + &link("tool") + &joint("mount", "fixed", "arm", "tool", "");
+            one_joint(i, &(finger + &joint("grip", "revolute", "arm", "finger", "")));
+            i.set("/arm/tip", json!("tool"));
         },
         "arm.lock.grip",
         &["is missing", "branch", "give the position"],
@@ -127,11 +128,11 @@ const CASES: &[Case] = &[
     case(
         "mimic joint",
         |i| {
-            let mimic = joint("follow", "revolute", "arm", "hand", "<mimic joint=\"turn\"/>");
+            let mimic = joint("follow", "revolute", "arm", "hand", "<mimic joint=\"turning\"/>");
             one_joint(i, &(link("hand") + &mimic));
         },
-        "joint[follow].mimic",
-        &["couples the joint to \"turn\"", "arm.lock"],
+        "joint[follow].mimic.joint",
+        &["is \"turning\", which is not a joint", "name the joint that it follows", "arm.lock"],
     )
     .inside("arm.urdf"),
     case(

@@ -142,3 +142,29 @@ fn states_out_of_range_are_bad_input() {
     assert!(refused.stderr.contains("[1]: overflows; write "), "{}", refused.stderr);
     assert_eq!(refused.stderr.lines().count(), 1);
 }
+
+#[test]
+fn the_loop_is_not_judged() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut spec = crate::common::value("arm3_xi2");
+    spec["control"]["W"] = json!(-1.0);
+    let path = folder.path().join("spec.json");
+    fs::write(&path, spec.to_string()).expect("written");
+    let file = folder.path().join("states.json");
+    fs::write(&file, states().to_string()).expect("written");
+    let run =
+        |more: &[&str]| finish(gramforge().arg("evaluate").arg(&path).arg("--states").arg(&file).args(more));
+    assert_eq!(run(&["--json"]).json(), evaluate("arm3_xi2", &states(), &["--json"]).json());
+    let refused = finish(gramforge().arg("inspect").arg(&path)).expect(2);
+    assert!(refused.stderr.contains("control.W: is -1"), "{refused:?}");
+}
+
+#[test]
+fn absurd_numbers_of_threads_are_refused() {
+    let spec = text(&committed("arm3_xi2"));
+    let many = finish(gramforge().args(["inspect", &spec]).env("RAYON_NUM_THREADS", "99999999")).expect(2);
+    assert!(
+        many.stderr.contains("RAYON_NUM_THREADS: is 99999999; write a number of threads from 1"),
+        "{many:?}"
+    );
+}

@@ -8,8 +8,15 @@ use serde_json::{Value, json};
 use super::urdf::{ARM, folder, outcome, spec, usual};
 use super::{built, loaded};
 
-/// The one fault of the small arm after `edit` holds `part`.
+/// The one fault of the small arm after `edit` holds `part`, and names the line of the first edit where `part` names the
+/// file.
 fn refused(name: &str, edit: &[(&str, &str)], arm: Value, part: &str) {
+    let line = edit.first().map_or(0, |(from, _)| line_of(from));
+    refused_in(line, name, edit, arm, part);
+}
+
+/// The same, naming `line`; 0 where the whole file is meant.
+fn refused_in(line: usize, name: &str, edit: &[(&str, &str)], arm: Value, part: &str) {
     let mut urdf = ARM.to_string();
     for (from, to) in edit {
         assert!(urdf.contains(from), "{from}");
@@ -17,7 +24,17 @@ fn refused(name: &str, edit: &[(&str, &str)], arm: Value, part: &str) {
     }
     let message = outcome(name, &urdf, arm).expect_err(name);
     assert_eq!(message.lines().count(), 1, "{name}: {message}");
-    assert!(message.contains(part), "{name}: {message:?} lacks {part:?}");
+    let part = match part.strip_prefix("arm.urdf: ") {
+        Some(rest) if line > 0 => format!("arm.urdf:{line}: {rest}"),
+        _ => part.to_string(),
+    };
+    assert!(message.contains(&part), "{name}: {message:?} lacks {part:?}");
+}
+
+/// The line of the small arm's file in which `text` begins.
+fn line_of(text: &str) -> usize {
+    let before = ARM.split(text).next().expect("a part before");
+    1 + before.matches('\n').count()
 }
 
 #[test]
@@ -129,7 +146,7 @@ fn faults_name_file_place_value_and_mend() {
         "mimic",
         &[("<axis xyz=\"0 2 0\"/>", "<mimic joint=\"reach\"/>")],
         u(),
-        "arm.urdf: joint[swing].mimic: couples the joint to \"reach\"",
+        "arm.urdf: joint[swing].mimic: lets a revolute joint follow the prismatic joint \"reach\"",
     );
     refused(
         "twice",
@@ -137,7 +154,13 @@ fn faults_name_file_place_value_and_mend() {
         u(),
         "arm.urdf: link[tool]: stands twice",
     );
-    refused("joint-twice", &[("name=\"mount\"", "name=\"end\"")], u(), "arm.urdf: joint[end]: stands twice");
+    refused_in(
+        line_of("<joint name=\"end\""),
+        "joint-twice",
+        &[("name=\"mount\"", "name=\"end\"")],
+        u(),
+        "arm.urdf: joint[end]: stands twice, first in line 17; give each its own name",
+    );
     refused(
         "unknown-link",
         &[("<child link=\"camera\"/>", "<child link=\"cam\"/>")],
@@ -188,17 +211,29 @@ fn faults_name_file_place_value_and_mend() {
         u(),
         "arm.urdf: has the root element <sdf>; give a URDF file",
     );
-    refused("malformed", &[("</robot>", "")], u(), "arm.urdf: is not a URDF file that can be read");
+    refused_in(
+        line_of("<robot"),
+        "malformed",
+        &[("</robot>", "")],
+        u(),
+        "arm.urdf: is not a URDF file that can be read (<robot> is not closed)",
+    );
     refused(
         "no-parent",
         &[("<parent link=\"base\"/>", "")],
         u(),
-        "arm.urdf: is not a URDF file that can be read",
+        "arm.urdf: joint[swing].parent: is missing; write <parent link=\"…\"/>",
+    );
+    refused(
+        "two-inertials",
+        &[("izz=\"0.25\"/></inertial>", "izz=\"0.25\"/></inertial><inertial/>")],
+        u(),
+        "arm.urdf: link[upper].inertial: stands twice, first in line 5; keep one <inertial>",
     );
     let empty = outcome("empty", "", u()).expect_err("empty");
     assert!(empty.contains("arm.urdf: has no XML element"), "{empty}");
     let bare = outcome("bare", "<robot name=\"x\"/>", u()).expect_err("bare");
-    assert!(bare.contains("arm.urdf: has no <link>"), "{bare}");
+    assert!(bare.contains("arm.urdf:1: has no <link>"), "{bare}");
     let gone = built(&loaded(&spec(u()), Path::new("/nowhere/a.json"))).expect_err("gone").to_string();
     assert!(
         gone.starts_with("/nowhere/a.json: arm.urdf: names /nowhere/arm.urdf, which cannot be read"),

@@ -3,19 +3,23 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use urdf_rs::{Joint, JointType, Robot};
-
 use super::super::place::Place;
+use super::mimic::{self, Follow};
+use super::robot::{Joint, Kind, Robot};
 use crate::error::Faults;
 use crate::spec::ArmSpec;
 
 /// What a joint does in the arm.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Role {
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Role<'a> {
     /// Moves; on the chain.
     Moves,
+    /// Follows a joint that moves; on the chain.
+    Follows(Follow<'a>),
     /// Welded at this position (rad or m; 0 for fixed joints).
     Welded(f64),
+    /// Stands on the base, off the chain: no matter.
+    Idle,
 }
 
 /// A checked tree: joints ordered so that a parent link always comes before its children.
@@ -25,33 +29,26 @@ pub(super) struct Tree<'a> {
     /// The link at which the arm ends.
     pub tip: &'a str,
     /// Every joint with its role, root first, in the file's order where there is a choice.
-    pub joints: Vec<(&'a Joint, Role)>,
+    pub joints: Vec<(&'a Joint<'a>, Role<'a>)>,
 }
 
 /// The tree of `robot`; `None` where its shape is at fault.
 pub(super) fn tree<'a>(
-    robot: &'a Robot,
+    robot: &'a Robot<'a>,
     spec: &'a ArmSpec,
     file: &Path,
     faults: &mut Faults,
 ) -> Option<Tree<'a>> {
     let before = faults.count();
     let whole = Place::new(file, "");
-    if robot.links.is_empty() {
-        whole.fault(faults, "has no <link>", "give the URDF of an arm");
-        return None;
-    }
-    unique(robot.links.iter().map(|l| l.name.as_str()), "link", &whole, faults);
-    unique(robot.joints.iter().map(|j| j.name.as_str()), "joint", &whole, faults);
-    let links: BTreeSet<&str> = robot.links.iter().map(|l| l.name.as_str()).collect();
-    let carrier = carriers(robot, &links, file, faults);
+    let links: BTreeSet<&str> = robot.links.iter().map(|l| l.name).collect();
+    let carrier = carriers(robot, &links, faults);
     if faults.count() > before {
         return None;
     }
     let root = root(robot, &carrier, &whole, faults)?;
     let ordered = ordered(robot, root);
-    let reached: BTreeSet<&str> =
-        ordered.iter().map(|j| j.child.link.as_str()).chain(std::iter::once(root)).collect();
+    let reached: BTreeSet<&str> = ordered.iter().map(|j| j.child).chain(std::iter::once(root)).collect();
     let cut_off: Vec<&str> = links.difference(&reached).copied().collect();
     if !cut_off.is_empty() {
         let problem = format!("has a loop: {} cannot be reached from the root {root}", cut_off.join(", "));
@@ -64,47 +61,36 @@ pub(super) fn tree<'a>(
     (faults.count() == before).then_some(Tree { root, tip, joints })
 }
 
-fn unique<'a>(names: impl Iterator<Item = &'a str>, kind: &str, place: &Place, faults: &mut Faults) {
-    let mut seen = BTreeSet::new();
-    let twice: BTreeSet<&str> = names.filter(|name| !seen.insert(*name)).collect();
-    for name in twice {
-        place.at(&format!("{kind}[{name}]")).fault(faults, "stands twice", "give each its own name");
-    }
-}
-
 /// The joint that carries each link.
 fn carriers<'a>(
-    robot: &'a Robot,
+    robot: &'a Robot<'a>,
     links: &BTreeSet<&str>,
-    file: &Path,
     faults: &mut Faults,
-) -> BTreeMap<&'a str, &'a Joint> {
-    let mut out = BTreeMap::new();
+) -> BTreeMap<&'a str, &'a Joint<'a>> {
+    let mut out: BTreeMap<&str, &Joint<'_>> = BTreeMap::new();
     for joint in &robot.joints {
-        let place = Place::new(file, format!("joint[{}]", joint.name));
-        for (end, link) in [("parent", &joint.parent.link), ("child", &joint.child.link)] {
-            if !links.contains(link.as_str()) {
+        for (end, link) in [("parent", joint.parent), ("child", joint.child)] {
+            if !links.contains(link) {
                 let mend = format!("name one of the links {}", list(links.iter().copied()));
-                place.at(end).fault(faults, format!("is {link:?}, which is not a link"), mend);
+                joint.place.at(end).fault(faults, format!("is {link:?}, which is not a link"), mend);
             }
         }
-        if let Some(other) = out.insert(joint.child.link.as_str(), joint) {
-            let problem =
-                format!("is {:?}, which the joint {:?} carries already", joint.child.link, other.name);
-            place.at("child").fault(faults, problem, "let one joint carry each link");
+        if let Some(other) = out.insert(joint.child, joint) {
+            let problem = format!("is {:?}, which the joint {:?} carries already", joint.child, other.name);
+            joint.place.at("child").fault(faults, problem, "let one joint carry each link");
         }
     }
     out
 }
 
 fn root<'a>(
-    robot: &'a Robot,
-    carrier: &BTreeMap<&str, &Joint>,
+    robot: &'a Robot<'a>,
+    carrier: &BTreeMap<&str, &Joint<'_>>,
     whole: &Place,
     faults: &mut Faults,
 ) -> Option<&'a str> {
     let roots: Vec<&str> =
-        robot.links.iter().map(|l| l.name.as_str()).filter(|name| !carrier.contains_key(name)).collect();
+        robot.links.iter().map(|l| l.name).filter(|name| !carrier.contains_key(name)).collect();
     match roots.as_slice() {
         [root] => Some(root),
         [] => {
@@ -120,20 +106,22 @@ fn root<'a>(
 }
 
 /// Joints reachable from `root`, breadth first.
-fn ordered<'a>(robot: &'a Robot, root: &str) -> Vec<&'a Joint> {
-    let from = |link: &str| robot.joints.iter().filter(|j| j.parent.link == link).collect::<Vec<_>>();
-    let mut out = from(root);
+fn ordered<'a>(robot: &'a Robot<'a>, root: &str) -> Vec<&'a Joint<'a>> {
+    let mut behind: BTreeMap<&str, Vec<&Joint<'_>>> = BTreeMap::new();
+    for joint in &robot.joints {
+        behind.entry(joint.parent).or_default().push(joint);
+    }
+    let mut out = behind.remove(root).unwrap_or_default();
     let mut next = 0;
     while let Some(joint) = out.get(next) {
-        let children = from(&joint.child.link);
-        out.extend(children);
+        out.extend(behind.remove(joint.child).unwrap_or_default());
         next += 1;
     }
     out
 }
 
 fn tip<'a>(
-    robot: &'a Robot,
+    robot: &'a Robot<'a>,
     spec: &'a ArmSpec,
     links: &BTreeSet<&str>,
     file: &Path,
@@ -147,9 +135,9 @@ fn tip<'a>(
         }
         return Some(tip);
     }
-    let parents: BTreeSet<&str> = robot.joints.iter().map(|j| j.parent.link.as_str()).collect();
+    let parents: BTreeSet<&str> = robot.joints.iter().map(|j| j.parent).collect();
     let leaves: Vec<&str> =
-        robot.links.iter().map(|l| l.name.as_str()).filter(|name| !parents.contains(name)).collect();
+        robot.links.iter().map(|l| l.name).filter(|name| !parents.contains(name)).collect();
     match leaves.as_slice() {
         [leaf] => Some(leaf),
         several => {
@@ -161,24 +149,24 @@ fn tip<'a>(
 }
 
 /// Names of the joints between root and tip.
-fn chain<'a>(tip: &str, carrier: &BTreeMap<&str, &'a Joint>) -> BTreeSet<&'a str> {
+fn chain<'a>(tip: &str, carrier: &BTreeMap<&str, &'a Joint<'a>>) -> BTreeSet<&'a str> {
     let mut out = BTreeSet::new();
     let mut link = tip;
     while let Some(joint) = carrier.get(link) {
-        out.insert(joint.name.as_str());
-        link = &joint.parent.link;
+        out.insert(joint.name);
+        link = joint.parent;
     }
     out
 }
 
 fn roles<'a>(
-    ordered: &[&'a Joint],
+    ordered: &[&'a Joint<'a>],
     chain: &BTreeSet<&str>,
     spec: &ArmSpec,
     file: &Path,
     faults: &mut Faults,
-) -> Vec<(&'a Joint, Role)> {
-    let movable: Vec<&str> = ordered.iter().filter(|j| slides_or_turns(j)).map(|j| j.name.as_str()).collect();
+) -> Vec<(&'a Joint<'a>, Role<'a>)> {
+    let movable: Vec<&str> = ordered.iter().filter(|j| j.kind != Kind::Fixed).map(|j| j.name).collect();
     for name in spec.lock.keys().filter(|name| !movable.contains(&name.as_str())) {
         let mend = format!("name one of the movable joints {}", list(movable.iter().copied()));
         faults.push(
@@ -187,44 +175,25 @@ fn roles<'a>(
             mend,
         );
     }
+    let all: BTreeMap<&str, &Joint<'_>> = ordered.iter().map(|joint| (joint.name, *joint)).collect();
+    // Links that a moving joint carries.
+    let mut carried: BTreeSet<&str> = BTreeSet::new();
     let mut out = Vec::new();
     for joint in ordered {
-        let role = match (&joint.joint_type, spec.lock.get(&joint.name)) {
-            (JointType::Fixed, _) => Some(Role::Welded(0.0)),
-            (JointType::Floating | JointType::Planar | JointType::Spherical, _) => {
-                let problem = format!("is {:?}", joint.joint_type).to_lowercase();
-                Place::new(file, format!("joint[{}].type", joint.name)).fault(
-                    faults,
-                    problem,
-                    "an arm takes revolute, continuous and prismatic joints; make it one of these or fixed",
-                );
-                None
-            }
-            (_, Some(position)) => Some(Role::Welded(*position)),
-            (_, None) if !chain.contains(joint.name.as_str()) => {
-                faults.push(
-                    format!("arm.lock.{}", joint.name),
-                    "is missing: this joint moves a branch off the chain to the tip",
-                    "give the position (rad or m) at which it is held",
-                );
-                None
-            }
-            (_, None) => match &joint.mimic {
-                Some(mimic) => {
-                    Place::new(file, format!("joint[{}].mimic", joint.name)).fault(
-                        faults,
-                        format!("couples the joint to {:?}, which is not supported", mimic.joint),
-                        "remove it where the joint has its own drive, or hold the joint by `arm.lock`",
-                    );
-                    None
-                }
-                None => Some(Role::Moves),
-            },
-        };
+        let on_chain = chain.contains(joint.name);
+        let matters = on_chain || carried.contains(joint.parent);
+        let role = if matters { role(joint, on_chain, &all, chain, spec, faults) } else { Some(Role::Idle) };
+        let moves = matches!(role, Some(Role::Moves | Role::Follows(_)));
+        if moves || carried.contains(joint.parent) {
+            carried.insert(joint.child);
+        }
         out.extend(role.map(|role| (*joint, role)));
     }
-    let moving: Vec<&str> =
-        out.iter().filter(|(_, role)| *role == Role::Moves).map(|(j, _)| j.name.as_str()).collect();
+    let moving: Vec<&str> = out
+        .iter()
+        .filter(|(_, role)| matches!(role, Role::Moves | Role::Follows(_)))
+        .map(|(j, _)| j.name)
+        .collect();
     for name in spec.joints.keys().filter(|name| !moving.contains(&name.as_str())) {
         let mend = format!("name one of {}", list(moving.iter().copied()));
         faults.push(format!("arm.joints.{name}"), "is not a joint of the arm", mend);
@@ -232,8 +201,48 @@ fn roles<'a>(
     out
 }
 
-fn slides_or_turns(joint: &Joint) -> bool {
-    matches!(joint.joint_type, JointType::Revolute | JointType::Continuous | JointType::Prismatic)
+/// The role of a joint that stands between base and tip or on a link that moves; `None` after a fault.
+fn role<'a>(
+    joint: &'a Joint<'a>,
+    on_chain: bool,
+    all: &BTreeMap<&str, &'a Joint<'a>>,
+    chain: &BTreeSet<&str>,
+    spec: &ArmSpec,
+    faults: &mut Faults,
+) -> Option<Role<'a>> {
+    let lock = spec.lock.get(joint.name).copied();
+    match (joint.kind, joint.kind.moving(), lock) {
+        (Kind::Fixed, ..) => Some(Role::Welded(0.0)),
+        (_, None, Some(0.0)) => Some(Role::Welded(0.0)),
+        (_, None, Some(position)) => {
+            let problem = format!("is {position}, and the joint is {}", joint.kind.name());
+            let mend = "write 0: such a joint is held where the file places it";
+            faults.push(format!("arm.lock.{}", joint.name), problem, mend);
+            None
+        }
+        (_, None, None) => {
+            let mend = format!(
+                "an arm takes revolute, continuous and prismatic joints; make it one of these or fixed, or write 0 \
+                 as `arm.lock.{}` to hold it where it is",
+                joint.name
+            );
+            joint.place.at("type").fault(faults, format!("is {}", joint.kind.name()), mend);
+            None
+        }
+        (_, Some(_), Some(position)) => Some(Role::Welded(position)),
+        (_, Some(_), None) => match joint.element.one("mimic", &joint.place, faults) {
+            Some(element) => mimic::role(joint, element, on_chain, all, chain, spec, faults),
+            None if on_chain => Some(Role::Moves),
+            None => {
+                faults.push(
+                    format!("arm.lock.{}", joint.name),
+                    "is missing: this joint moves a branch off the chain to the tip",
+                    "give the position (rad or m) at which it is held",
+                );
+                None
+            }
+        },
+    }
 }
 
 fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {

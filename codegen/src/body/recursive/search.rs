@@ -1,5 +1,6 @@
 //! The cheapest of the recursion's ways for one arm.
 
+use super::super::coupled::coupled;
 use super::build;
 use super::choice::{Choice, neighbours};
 use super::wrench::Units;
@@ -20,7 +21,10 @@ const METRES: Units = Units { acceleration: 1.0, force: 1.0 };
 
 /// The recursion with the fewest operations that a descent finds: link by link, one choice at a time, until none pays.
 pub fn recursive(arm: &Arm) -> Graph {
-    planned(arm, &[]).0
+    match &arm.linkage {
+        Some(linkage) => coupled(arm, linkage, &recursive(&linkage.chain)),
+        None => planned(arm, &[]).0,
+    }
 }
 
 /// What the recursion of `arm` costs by `plan`, in the measure of the search; [`usize::MAX`] where its numbers overflow.

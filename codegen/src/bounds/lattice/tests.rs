@@ -17,11 +17,11 @@ fn sums() -> Vec<Vec<(Function, f64)>> {
         (kappa[0], kappa[1], kappa[3]) = ((u[0] * 3.0) as i8, pick(u[1]), pick(u[2]));
         let mut power = [0; MAX_JOINTS];
         power[2] = (u[3] * 3.0) as u8;
-        (Function { kappa, power, sine: u[4] > 0.5 }, 2.0 * u[5] - 1.0)
+        (Function { kappa, power, sine: u[4] > 0.5, ..Function::ONE }, 2.0 * u[5] - 1.0)
     };
     let mut kappa = [0; MAX_JOINTS];
     kappa[3] = 1;
-    let first = vec![(Function { kappa, power: [0; MAX_JOINTS], sine: true }, 0.7)];
+    let first = vec![(Function { kappa, sine: true, ..Function::ONE }, 0.7)];
     let last = vec![(Function::ONE, 0.2)];
     let between = (0..5).map(|sum| (0..6).map(|i| term(6 * sum + i)).collect());
     std::iter::once(first).chain(between).chain([last]).collect()

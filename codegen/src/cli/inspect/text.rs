@@ -16,6 +16,9 @@ pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
             view.functions, view.coefficients, view.terms
         ),
     ];
+    if let Some(linkage) = &generation.arm.linkage {
+        lines.push(format!("followers: {}", linkage.equations(&generation.arm).join(", ")));
+    }
     for (number, psi) in (1..).zip(&view.selected) {
         lines.push(format!("  psi_{number} = {psi}"));
     }

@@ -9,6 +9,7 @@ mod terms;
 mod written;
 
 use super::{Graph, Name, Node};
+use crate::lagrangian::MAX_JOINTS;
 use terms::{Atom, Term, atom, costs, is_alias, joined, product};
 
 /// What an atom stands for.
@@ -26,6 +27,7 @@ struct System {
     /// Atom and sign of each result.
     outputs: Vec<Vec<Term>>,
     output_names: Vec<Option<Name>>,
+    parts: [u8; MAX_JOINTS],
 }
 
 impl Graph {
@@ -54,7 +56,7 @@ impl Graph {
 impl System {
     fn new(graph: &Graph) -> Self {
         let uses = graph.uses();
-        let mut system = Self::default();
+        let mut system = Self { parts: graph.parts, ..Self::default() };
         let mut sums: Vec<Vec<Term>> = Vec::with_capacity(graph.nodes.len());
         for (id, node) in graph.nodes.iter().enumerate() {
             let name = graph.names[id].clone();

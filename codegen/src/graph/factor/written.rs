@@ -7,6 +7,7 @@ use super::{Meaning, System};
 impl System {
     pub(super) fn graph(&self) -> Graph {
         let builder = Builder::new();
+        builder.divide(self.parts);
         let mut made: Vec<Option<Expr>> = vec![None; self.meanings.len()];
         // Names and lines in the order of the original; what it did not have, where it is needed first.
         for index in 0..self.meanings.len() {

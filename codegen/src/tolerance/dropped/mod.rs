@@ -52,7 +52,8 @@ pub(super) struct Member {
 
 /// The members with errors up to `most` at the points that cost no less than `least`.
 pub(super) fn family(problem: &Problem, most: f64, least: usize) -> Vec<Member> {
-    if problem.points.is_empty() {
+    // Where joints follow others the bodies stand in the chain, whose parameters are not judged one by one.
+    if problem.points.is_empty() || problem.arm.linkage.is_some() {
         return Vec::new();
     }
     let regrouped = problem.arm.regrouped();
