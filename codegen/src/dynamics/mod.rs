@@ -4,6 +4,7 @@ mod jet;
 mod model;
 mod norms;
 mod recursion;
+mod running;
 mod scalar;
 
 pub use jet::Jet;
@@ -11,4 +12,5 @@ pub(crate) use model::positions;
 pub use model::{coriolis, energy, gravity, inverse_dynamics, mass_matrix};
 pub use norms::{Size, Sizes};
 pub use recursion::{Position, passivity_torque};
+pub use running::rounding;
 pub use scalar::Scalar;

@@ -10,10 +10,13 @@ use super::coupled;
 use super::function::{Function, MAX_JOINTS, WHOLE};
 use super::transform::{Axis, grid_point, grid_size, transform};
 use crate::arm::{Arm, JointKind, Uncertainty};
-use crate::dynamics::{Size, Sizes, gravity, mass_matrix};
+use crate::dynamics::{Size, Sizes, gravity, mass_matrix, rounding};
+use crate::spread::Spread;
 
-/// Terms up to this part of what is summed for their entry are rounding of the samples and of the transform.
-const ROUNDING: f64 = 32.0 * f64::EPSILON;
+/// Positions at which the rounding of the samples is looked at.
+const LOOKED_AT: usize = 48;
+/// Terms up to this many times that are rounding: the transform takes as much as the samples.
+const ROUNDING: f64 = 2.0;
 /// A term below this part of its coefficient's largest one is lost when they are added.
 const LOST: f64 = 0.5 * f64::EPSILON;
 /// Roundings behind each sample at most, as a part of what is summed.
@@ -49,8 +52,8 @@ pub fn expand_family(arm: &Arm, uncertainty: &Uncertainty) -> Lagrangian {
 
 /// d_ij with i ≤ j, h_ijk with j ≤ k and g_i, and how well each is known.
 ///
-/// What is a term and what is rounding is decided here and nowhere else: by the size of what is summed for the entry in
-/// the recursion behind the samples ([`Sizes`]), not by the arm's largest coefficient, beside which a light joint vanishes.
+/// What is a term and what is rounding is decided here and nowhere else: by what the entry itself rounds by in the recursion
+/// behind the samples, not by the arm's largest coefficient, beside which a light joint vanishes.
 fn entries(arm: &Arm) -> Vec<(Expansion, Accuracy)> {
     let n = arm.dof();
     // The nodes of a prismatic axis are −1, 0 and 1 m.
@@ -58,14 +61,22 @@ fn entries(arm: &Arm) -> Vec<(Expansion, Accuracy)> {
     let grown: f64 = arm.moving().iter().map(|joint| lebesgue(joint.kind)).product::<f64>();
     let (spread, steep) = arm.linkage.as_ref().map_or((1.0, 1.0), |linkage| coupled::growth(linkage));
     let grown = grown * spread;
-    let own =
-        |raw: Expansion, size: Size| significant(raw, ROUNDING * size.exact, SAMPLED * grown * size.exact);
+    let (noise_d, noise_g) = noise(arm);
+    let own = |raw: Expansion, noise: f64, size: Size| {
+        significant(raw, ROUNDING * noise, SAMPLED * grown * size.exact)
+    };
     let d = expand_mass_matrix(arm);
     let pairs: Vec<(usize, usize)> = (0..n).flat_map(|i| (i..n).map(move |j| (i, j))).collect();
-    let d: BTreeMap<(usize, usize), _> =
-        d.into_iter().zip(pairs).map(|(raw, (i, j))| ((i, j), own(raw, sizes.mass_matrix[i][j]))).collect();
-    let g: Vec<_> =
-        expand_gravity(arm).into_iter().zip(&sizes.gravity).map(|(raw, &size)| own(raw, size)).collect();
+    let d: BTreeMap<(usize, usize), _> = d
+        .into_iter()
+        .zip(pairs)
+        .map(|(raw, (i, j))| ((i, j), own(raw, noise_d[i][j], sizes.mass_matrix[i][j])))
+        .collect();
+    let g: Vec<_> = expand_gravity(arm)
+        .into_iter()
+        .zip(noise_g.iter().zip(&sizes.gravity))
+        .map(|(raw, (&noise, &size))| own(raw, noise, size))
+        .collect();
     let entries: Vec<Entry> = Entry::all(n).collect();
     entries
         .into_par_iter()
@@ -82,6 +93,27 @@ fn entries(arm: &Arm) -> Vec<(Expansion, Accuracy)> {
             Entry::G(i) => g[i].clone(),
         })
         .collect()
+}
+
+/// The most that entries of D and G were found to round by.
+fn noise(arm: &Arm) -> (Vec<Vec<f64>>, Vec<f64>) {
+    let n = arm.dof();
+    let spread = Spread::new(n);
+    let at = |index: usize| {
+        let angle = |u: f64| std::f64::consts::PI * (2.0 * u - 1.0);
+        let kinds = arm.moving().iter().map(|joint| joint.kind);
+        let position = |(kind, u): (JointKind, f64)| match kind {
+            JointKind::Revolute => angle(u),
+            JointKind::Prismatic => 2.0 * u - 1.0,
+        };
+        let q: Vec<f64> = kinds.zip(spread.point(index)).map(position).collect();
+        rounding(arm, &q)
+    };
+    let larger = |a: Vec<f64>, b: Vec<f64>| a.into_iter().zip(b).map(|(a, b)| a.max(b)).collect();
+    let none = (vec![vec![0.0; n]; n], vec![0.0; n]);
+    (0..LOOKED_AT).map(at).fold(none, |most, now| {
+        (most.0.into_iter().zip(now.0).map(|(a, b)| larger(a, b)).collect(), larger(most.1, now.1))
+    })
 }
 
 /// How much larger than an error at the nodes of one axis the interpolated error can be between them.
