@@ -6,8 +6,8 @@
 
 use rayon::prelude::*;
 
-use crate::arm::{Arm, JointKind, Uncertainty};
-use crate::dynamics::{Jet, Position, passivity_torque};
+use crate::arm::{Arm, Uncertainty};
+use crate::dynamics::{Jet, enclosed_positions, passivity_torque};
 use crate::interval::Interval;
 use crate::motion::{Motion, Span};
 
@@ -164,20 +164,10 @@ impl Piece {
 
 /// τ_d and its rate of one arm, without friction.
 fn torque(arm: &Arm, span: &Span) -> Vec<Jet<Interval>> {
-    let place = |((joint, q), qd): ((&crate::arm::Joint, &Interval), &Interval)| match joint.kind {
-        JointKind::Revolute => {
-            let (sin, cos) = q.sin_cos();
-            Position::Revolute {
-                sin: Jet { value: sin, rate: cos * *qd },
-                cos: Jet { value: cos, rate: -(sin * *qd) },
-            }
-        }
-        JointKind::Prismatic => Position::Prismatic(Jet { value: *q, rate: *qd }),
-    };
     let with = |value: &[Interval], rate: &[Interval]| -> Vec<Jet<Interval>> {
         value.iter().zip(rate).map(|(&value, &rate)| Jet { value, rate }).collect()
     };
-    let q: Vec<_> = arm.joints.iter().zip(&span.q).zip(&span.qd).map(place).collect();
+    let q = enclosed_positions(arm, &with(&span.q, &span.qd));
     let (qd, qdd) = (with(&span.qd, &span.qdd), with(&span.qdd, &span.jerk));
     passivity_torque(arm, arm.gravity, &q, &qd, &qd, &qdd)
 }

@@ -6,7 +6,7 @@ mod norms;
 mod recursion;
 mod scalar;
 
-pub use jet::Jet;
+pub use jet::{Jet, enclosed_positions};
 pub(crate) use model::positions;
 pub use model::{coriolis, energy, gravity, inverse_dynamics, mass_matrix};
 pub use norms::{Size, Sizes};
