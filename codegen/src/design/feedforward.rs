@@ -248,4 +248,26 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn joints_that_follow_others_count() {
+        let chain = three_link();
+        let mut arm = chain.clone();
+        arm.joints.truncate(2);
+        for joint in &mut arm.joints {
+            joint.body = crate::arm::Body::default();
+        }
+        let follows =
+            |coordinate, multiplier, offset| crate::arm::Coupling { coordinate, multiplier, offset };
+        let couplings = vec![follows(0, 1.0, 0.0), follows(1, 1.0, 0.0), follows(1, -0.5, 0.1)];
+        arm.linkage = Some(Box::new(crate::arm::Linkage { chain, couplings }));
+        let motion = Motion::Quintic { from: vec![0.0, 0.3], to: vec![1.5, 1.2], duration: 2.0 };
+        let bounds = Feedforward::new(&arm, &Uncertainty::default(), &motion);
+        let [torque, rate] = seen(&arm, &motion, 5_003);
+        println!("{:?} of {torque:?}, rates {:?} of {rate:?}", bounds.torque, bounds.rate);
+        for i in 0..2 {
+            assert!(bounds.torque[i] >= torque[i] && bounds.rate[i] >= rate[i] * (1.0 - 1e-6));
+            assert!(bounds.torque[i] <= 1.01 * torque[i] && bounds.rate[i] <= 1.05 * rate[i]);
+        }
+    }
 }
