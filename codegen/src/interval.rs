@@ -58,7 +58,8 @@ impl Interval {
     pub fn sin_cos(self) -> (Self, Self) {
         let (turn, quarter) = (std::f64::consts::TAU, std::f64::consts::FRAC_PI_2);
         let whole = Self { low: -1.0, high: 1.0 };
-        if !(self.high - self.low < turn) {
+        let width = self.high - self.low;
+        if width.is_nan() || width >= turn {
             return (whole, whole);
         }
         let ((sin_low, cos_low), (sin_high, cos_high)) = (libm::sincos(self.low), libm::sincos(self.high));

@@ -42,7 +42,8 @@ fn rhythm(v: &mut Value, hertz: f64, duration: f64) {
 /// At 2 Hz, 200 s hold a whole number of periods in each of 400, 500, 1000 or 2000 equal steps.
 #[test]
 fn a_rhythm_that_samples_miss_still_lags() {
-    for (hertz, duration) in [(2.0, 200.0), (2.0, 5.0), (5.0, 200.0)] {
+    // At 5 Hz the lag may take the errors out of the tube, as far as the level of V can say.
+    for (hertz, duration, holds) in [(2.0, 200.0, true), (2.0, 5.0, true), (5.0, 200.0, false)] {
         let generation = generate(ARM3, |v| rhythm(v, hertz, duration)).unwrap();
         let guarantee = &generation.design.as_ref().unwrap().guarantee;
         let run = run(&generation);
@@ -55,8 +56,13 @@ fn a_rhythm_that_samples_miss_still_lags() {
             guarantee.final_error, guarantee.holds
         );
         assert!(seen.iter().any(|e| *e > 5e-5), "the held torque lags: {seen:?}");
-        assert!(!guarantee.holds || seen.iter().zip(&guarantee.final_error).all(|(e, p)| e <= p));
-        assert!(guarantee.holds, "{:?}", guarantee.reasons);
+        assert!(seen.iter().zip(&guarantee.final_error).all(|(e, p)| e <= p));
+        assert_eq!(guarantee.holds, holds, "{:?}", guarantee.reasons);
+        assert!(
+            holds || guarantee.reasons.iter().all(|r| r.contains("the tube holds")),
+            "{:?}",
+            guarantee.reasons
+        );
     }
 }
 

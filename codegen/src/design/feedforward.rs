@@ -6,8 +6,8 @@
 
 use rayon::prelude::*;
 
-use crate::arm::{Arm, JointKind, Uncertainty};
-use crate::dynamics::{Jet, Position, passivity_torque};
+use crate::arm::{Arm, Uncertainty};
+use crate::dynamics::{Jet, enclosed_positions, passivity_torque};
 use crate::interval::Interval;
 use crate::motion::{Motion, Span};
 
@@ -164,20 +164,10 @@ impl Piece {
 
 /// τ_d and its rate of one arm, without friction.
 fn torque(arm: &Arm, span: &Span) -> Vec<Jet<Interval>> {
-    let place = |((joint, q), qd): ((&crate::arm::Joint, &Interval), &Interval)| match joint.kind {
-        JointKind::Revolute => {
-            let (sin, cos) = q.sin_cos();
-            Position::Revolute {
-                sin: Jet { value: sin, rate: cos * *qd },
-                cos: Jet { value: cos, rate: -(sin * *qd) },
-            }
-        }
-        JointKind::Prismatic => Position::Prismatic(Jet { value: *q, rate: *qd }),
-    };
     let with = |value: &[Interval], rate: &[Interval]| -> Vec<Jet<Interval>> {
         value.iter().zip(rate).map(|(&value, &rate)| Jet { value, rate }).collect()
     };
-    let q: Vec<_> = arm.joints.iter().zip(&span.q).zip(&span.qd).map(place).collect();
+    let q = enclosed_positions(arm, &with(&span.q, &span.qd));
     let (qd, qdd) = (with(&span.qd, &span.qdd), with(&span.qdd, &span.jerk));
     passivity_torque(arm, arm.gravity, &q, &qd, &qd, &qdd)
 }
@@ -256,6 +246,28 @@ mod tests {
                     bounds.torque[i] <= 1.003 * torque[i] + 1e-2 && bounds.rate[i] <= most * rate[i] + 1e-2
                 );
             }
+        }
+    }
+
+    #[test]
+    fn joints_that_follow_others_count() {
+        let chain = three_link();
+        let mut arm = chain.clone();
+        arm.joints.truncate(2);
+        for joint in &mut arm.joints {
+            joint.body = crate::arm::Body::default();
+        }
+        let follows =
+            |coordinate, multiplier, offset| crate::arm::Coupling { coordinate, multiplier, offset };
+        let couplings = vec![follows(0, 1.0, 0.0), follows(1, 1.0, 0.0), follows(1, -0.5, 0.1)];
+        arm.linkage = Some(Box::new(crate::arm::Linkage { chain, couplings }));
+        let motion = Motion::Quintic { from: vec![0.0, 0.3], to: vec![1.5, 1.2], duration: 2.0 };
+        let bounds = Feedforward::new(&arm, &Uncertainty::default(), &motion);
+        let [torque, rate] = seen(&arm, &motion, 5_003);
+        println!("{:?} of {torque:?}, rates {:?} of {rate:?}", bounds.torque, bounds.rate);
+        for i in 0..2 {
+            assert!(bounds.torque[i] >= torque[i] && bounds.rate[i] >= rate[i] * (1.0 - 1e-6));
+            assert!(bounds.torque[i] <= 1.01 * torque[i] && bounds.rate[i] <= 1.05 * rate[i]);
         }
     }
 }

@@ -3,8 +3,8 @@
 //! As a function of x = (q_e, q̇_e) it is enclosed by the mean value theorem: its value without errors, and its slopes over
 //! the whole box of errors, from the recursion on intervals with forward derivatives.
 
-use crate::arm::{Arm, JointKind};
-use crate::dynamics::{Jet, Position, passivity_torque};
+use crate::arm::Arm;
+use crate::dynamics::{Jet, enclosed_positions, passivity_torque};
 use crate::interval::Interval;
 use crate::motion::Target;
 
@@ -71,20 +71,8 @@ fn torque(
         let term = |sum: Jet<Interval>, j: usize| sum + desired(gains.p12[i][j]) * error(from + j);
         (0..n).fold(desired(0.0), term)
     };
-    let place = |(i, joint): (usize, &crate::arm::Joint)| {
-        let q = desired(target.q[i]) + error(i);
-        match joint.kind {
-            JointKind::Revolute => {
-                let (sin, cos) = q.value.sin_cos();
-                Position::Revolute {
-                    sin: Jet { value: sin, rate: cos * q.rate },
-                    cos: Jet { value: cos, rate: -(sin * q.rate) },
-                }
-            }
-            JointKind::Prismatic => Position::Prismatic(q),
-        }
-    };
-    let q: Vec<_> = arm.joints.iter().enumerate().map(place).collect();
+    let q: Vec<_> = (0..n).map(|i| desired(target.q[i]) + error(i)).collect();
+    let q = enclosed_positions(arm, &q);
     let qd: Vec<_> = (0..n).map(|i| desired(target.qd[i]) + error(n + i)).collect();
     let v_r: Vec<_> = (0..n).map(|i| desired(target.qd[i]) - pulled(i, 0)).collect();
     let a_r: Vec<_> = (0..n).map(|i| desired(target.qdd[i]) - pulled(i, n)).collect();

@@ -80,14 +80,15 @@ impl Member {
         let rounding = recursion_rounding(&arm, reach);
         let rounding = angles.map_or_else(|| rounding.clone(), |angles| rounding.clone().plus(angles));
         // An entry without a coefficient vanishes to rounding.
-        let none = |index: usize| BENT * largest_monomial * rounding.d[index / n][index % n];
+        let bent = BENT * steep(&arm) * steep(&arm);
+        let none = |index: usize| bent * largest_monomial * rounding.d[index / n][index % n];
         let mut curvature = vec![(0..n * n).map(none).collect::<Vec<f64>>(); n * n];
         for coefficient in &lagrangian.coefficients {
             let varied = u.iter().zip(&coefficient.variations);
             let terms = varied.fold(coefficient.terms.clone(), |sum, (&u, v)| plus(&sum, u, v));
             let errors = coefficient.errors.iter().map(|accuracy| accuracy.error);
             let sizes = std::iter::once(1.0).chain(u.iter().map(|u| u.abs()));
-            let dropped = BENT * largest_monomial * errors.zip(sizes).map(|(e, size)| e * size).sum::<f64>();
+            let dropped = bent * largest_monomial * errors.zip(sizes).map(|(e, size)| e * size).sum::<f64>();
             for place in &coefficient.places {
                 let Entry::D(i, j) = place.entry else { continue };
                 for (index, entries) in curvature.iter_mut().enumerate() {
@@ -103,6 +104,14 @@ impl Member {
         }
         Self { arm, curvature, rounding }
     }
+}
+
+/// The largest sum of rates with which joints turn for a coordinate; 1 where none follow.
+fn steep(arm: &Arm) -> f64 {
+    let couplings = arm.linkage.iter().flat_map(|linkage| &linkage.couplings);
+    let mut sums = vec![0.0; arm.dof()];
+    couplings.for_each(|c| sums[c.coordinate] += c.multiplier.abs());
+    sums.into_iter().fold(1.0, f64::max)
 }
 
 impl Inertia {

@@ -75,8 +75,7 @@ pub(super) fn inverse_entries(a: &DMatrix<f64>, x: &DMatrix<f64>) -> Option<DMat
     });
     let row = |i: usize| (0..n).map(|j| residual[(i, j)]).sum::<f64>();
     let norm = (0..n).map(row).fold(0.0, f64::max);
-    // Not written as >= so that NaN is caught.
-    if !(norm < 0.5) {
+    if norm.is_nan() || norm >= 0.5 {
         return None;
     }
     let tail = |j: usize| (0..n).map(|i| residual[(i, j)]).fold(0.0, f64::max) * norm / (1.0 - norm);

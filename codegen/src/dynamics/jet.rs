@@ -2,7 +2,10 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
+use super::recursion::Position;
 use super::scalar::Scalar;
+use crate::arm::{Arm, JointKind};
+use crate::interval::Interval;
 
 /// A value and its derivative by one variable: forward differentiation in the ring `S`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,4 +48,28 @@ impl<S: Scalar> Scalar for Jet<S> {
     fn constant(self, x: f64) -> Self {
         Self { value: self.value.constant(x), rate: self.value.constant(0.0) }
     }
+}
+
+/// The joints that move, in the form that the recursion takes, where the coordinates are `q`: rad or m, with their rates.
+pub fn enclosed_positions(arm: &Arm, q: &[Jet<Interval>]) -> Vec<Position<Jet<Interval>>> {
+    let behind: Vec<Jet<Interval>> = match &arm.linkage {
+        None => q.to_vec(),
+        Some(linkage) => {
+            let follow = |c: &crate::arm::Coupling| {
+                q.get(c.coordinate).map(|q| q.constant(c.multiplier) * *q + q.constant(c.offset))
+            };
+            linkage.couplings.iter().map_while(follow).collect()
+        }
+    };
+    let place = |(joint, q): (&crate::arm::Joint, Jet<Interval>)| match joint.kind {
+        JointKind::Revolute => {
+            let (sin, cos) = q.value.sin_cos();
+            Position::Revolute {
+                sin: Jet { value: sin, rate: cos * q.rate },
+                cos: Jet { value: cos, rate: -(sin * q.rate) },
+            }
+        }
+        JointKind::Prismatic => Position::Prismatic(q),
+    };
+    arm.moving().iter().zip(behind).map(place).collect()
 }

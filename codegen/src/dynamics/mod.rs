@@ -7,7 +7,7 @@ mod recursion;
 mod running;
 mod scalar;
 
-pub use jet::Jet;
+pub use jet::{Jet, enclosed_positions};
 pub(crate) use model::positions;
 pub use model::{coriolis, energy, gravity, inverse_dynamics, mass_matrix};
 pub use norms::{Size, Sizes};
