@@ -57,7 +57,7 @@ pub fn read(path: &Path) -> Result<Loaded, Error> {
     let together = ["dictionary", "emit.trig", "control.law"];
     let known = |fault: &&Fault| {
         let section = fault.field.split(['.', '[']).next().unwrap_or_default();
-        !gone(section) && !(gone("model") && together.contains(&fault.field.as_str()))
+        !(gone(section) || gone("model") && together.contains(&fault.field.as_str()))
     };
     faults.extend(values.list().iter().filter(known).cloned());
     Err(faults.into_error())

@@ -211,6 +211,12 @@ fn faults_name_file_place_value_and_mend() {
         u(),
         "arm.urdf: has the root element <sdf>; give a URDF file",
     );
+    refused(
+        "nul",
+        &[("name=\"tool\"", "name=\"to&#0;ol\"")],
+        u(),
+        "arm.urdf: is not a URDF file that can be read",
+    );
     refused_in(
         line_of("<robot"),
         "malformed",

@@ -14,6 +14,9 @@ use super::xml::Element;
 const RATIO: [&str; 3] = ["mechanicalReduction", "gear_ratio", "gearRatio"];
 const INERTIA: [&str; 4] = ["motorInertia", "rotorInertia", "motor_inertia", "rotor_inertia"];
 
+/// An element with the rotor inertia that it gives, or why that is not certain.
+type Told<'a> = (&'a Element, Result<f64, String>);
+
 /// Rotor inertia by joint, seen from the joint, kg·m² (kg for a prismatic joint), each with the warning that tells it.
 pub(super) fn armatures<'a>(
     root: &'a Element,
@@ -21,7 +24,7 @@ pub(super) fn armatures<'a>(
     file: &Path,
     warnings: &mut Vec<String>,
 ) -> BTreeMap<&'a str, (f64, String)> {
-    let mut found: BTreeMap<&str, Vec<(&Element, Result<f64, String>)>> = BTreeMap::new();
+    let mut found: BTreeMap<&str, Vec<Told<'_>>> = BTreeMap::new();
     for element in root.all("transmission") {
         let mut joints: Vec<&str> = element.all("joint").filter_map(name).collect();
         joints.extend(

@@ -3,7 +3,6 @@
 //! Names are taken as they are written: robot files hold prefixes that nobody declares. Depth is bounded while reading,
 //! so that no later walk over the tree can run out of stack.
 
-use std::borrow::Cow;
 use std::path::Path;
 
 use quick_xml::events::{BytesStart, Event};
@@ -163,7 +162,12 @@ impl<'a> Parser<'a> {
             let attribute = attribute.map_err(|error| self.malformed(at, &error.to_string()))?;
             let raw = String::from_utf8_lossy(&attribute.value).into_owned();
             // An entity that the file itself declares stays as it is written: only a name or number that is used matters.
-            let value = escape::unescape(&raw).map_or(raw.clone(), Cow::into_owned);
+            // A character by its number is there or is none.
+            let value = match escape::unescape(&raw) {
+                Ok(value) => value.into_owned(),
+                Err(error) if raw.contains("&#") => return Err(self.malformed(at, &error.to_string())),
+                Err(_) => raw.clone(),
+            };
             let key = attribute.key.into_inner();
             let line = self.line(self.position(key).unwrap_or(at));
             attributes.push(Attribute { name: String::from_utf8_lossy(key).into_owned(), value, line });
