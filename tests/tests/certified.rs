@@ -55,7 +55,9 @@ fn check(generation: &Generation, demand: &Demand) {
     let Generation { lagrangian, reduced, certificates, .. } = generation;
     let name = &generation.loaded.spec.name;
     for (m, certificate) in certificates.iter().enumerate().filter(|(m, _)| !reduced.simplified[*m]) {
-        assert_eq!(certificate.bound, 0.0, "{name}: coefficient {m} is exact");
+        // Where the arm's rotations were rounded, that is all there is.
+        let most = if generation.arm == generation.given { 0.0 } else { 1e-9 };
+        assert!(certificate.bound <= most, "{name}: coefficient {m} is exact");
     }
     let worths = match &generation.motion {
         Some(motion) => worths(generation, motion),

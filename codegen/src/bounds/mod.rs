@@ -36,7 +36,7 @@ pub use peak::workspace_peak_torque;
 pub use rates::Rates;
 pub use recursion::{beside_expansion, recursion, recursion_rounding, rounded_angles};
 pub use region::reach;
-pub(crate) use rounding::{percent_up, printed_down, printed_up, published};
+pub(crate) use rounding::{percent_up, printed_down, printed_up, published, vanishing};
 pub(crate) use sines::largest_growth;
 pub use sines::with_sines;
 pub use torque::{Met, Torque, peak_torque, separate_error, torque_error, torque_exceeds};

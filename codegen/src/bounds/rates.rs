@@ -32,17 +32,21 @@ impl Rates {
 
     /// Ū_m of row `i`: the most that multiplies α_m there, over all its places.
     pub fn multipliers(&self, lagrangian: &Lagrangian, i: usize) -> Vec<f64> {
+        let sum = |c: &Coefficient| c.places.iter().map(|place| self.multiplier(place.entry, i)).sum();
+        lagrangian.coefficients.iter().map(sum).collect()
+    }
+
+    /// The most that multiplies one entry in row `i`.
+    pub fn multiplier(&self, entry: Entry, i: usize) -> f64 {
         let (a, v, w) = (&self.reference_acceleration, &self.speed, &self.reference_speed);
-        let of = |entry: Entry| match entry {
+        match entry {
             Entry::D(r, c) if r == i => a[c],
             Entry::D(r, c) if c == i => a[r],
             Entry::H(r, j, k) if r == i && j == k => v[j] * w[j],
             Entry::H(r, j, k) if r == i => v[j] * w[k] + v[k] * w[j],
             Entry::G(r) if r == i => 1.0,
             _ => 0.0,
-        };
-        let sum = |c: &Coefficient| c.places.iter().map(|place| of(place.entry)).sum();
-        lagrangian.coefficients.iter().map(sum).collect()
+        }
     }
 
     /// The same for the coefficients in absolute angles in the torque of joint `i`: at most this, as a sum over what

@@ -27,7 +27,7 @@
 //!
 //! Uncertain parameters add the same three for every ∂α_m/∂u_k and ∂α̂_m/∂u_k, times the largest |u_k|.
 
-use crate::lagrangian::{Combination, Lagrangian};
+use crate::lagrangian::{Accuracy, Combination, Entry, Lagrangian};
 use crate::number::{percent, short};
 use crate::reduction::Reduced;
 
@@ -66,6 +66,14 @@ pub fn published(lagrangian: &Lagrangian, m: usize, reduced: &Reduced, reach: &[
         high.max(-low) * (learnt + rest)
     });
     own + varied.sum::<f64>()
+}
+
+/// What the entries that cannot be told from zero may be, whatever the uncertain parameters, where |q_j| ≤ `reach`.
+pub fn vanishing(lagrangian: &Lagrangian, reach: &[f64]) -> Vec<(Entry, f64)> {
+    let largest = reach.iter().fold(1.0, |p: f64, &q| p * (q * q).max(1.0));
+    let widest = || std::iter::once(1.0).chain(lagrangian.ranges.iter().map(|[low, high]| high.max(-low)));
+    let most = |errors: &[Accuracy]| errors.iter().zip(widest()).map(|(a, u)| u * a.error).sum::<f64>();
+    lagrangian.vanishing.iter().map(|(entry, errors)| (*entry, most(errors) * largest)).collect()
 }
 
 /// sup|ψ_l|.

@@ -15,6 +15,8 @@ use crate::motion::{Motion, Span};
 const PIECES: u32 = 32;
 /// Pieces that may be looked at, for an arm of one joint: then the bounds found so far stand. What one costs grows with n.
 const BUDGET: usize = 60_000;
+/// Part of the duration below which a piece is not halved any more: its bound will not come down.
+const NARROWEST: f64 = 1e-9;
 /// Distance of bound and largest value at which halving ends, relative: of the torque, and of its rate, which converges an
 /// order more slowly.
 const TOLERANCE: [f64; 2] = [2e-3, 0.02];
@@ -56,28 +58,33 @@ impl Feedforward {
         let times: Vec<f64> =
             (0..=PIECES).map(|k| motion.duration() * f64::from(k) / f64::from(PIECES)).collect();
         let whole: Vec<[f64; 2]> = times.windows(2).map(|ends| [ends[0], ends[1]]).collect();
-        let mut pieces: Vec<Piece> = whole.into_par_iter().map(|ends| family.judge(motion, ends)).collect();
+        let mut open: Vec<Piece> = whole.into_par_iter().map(|ends| family.judge(motion, ends)).collect();
+        let mut closed: Vec<Piece> = Vec::new();
+        let mut seen = vec![0.0_f64; 2 * n];
         let mut left = BUDGET / (n * (1 + family.alone.len()));
+        let narrowest = NARROWEST * motion.duration();
         loop {
-            let seen = largest(&pieces, n, |piece| &piece.seen);
+            let new = largest(&open, n, |piece| &piece.seen);
+            seen.iter_mut().zip(new).for_each(|(seen, new)| *seen = seen.max(new));
             let targets = targets(&seen, n);
             let excess = |piece: &Piece| {
                 let entries = piece.bound.iter().zip(&targets).map(|(bound, target)| bound / target);
                 entries.fold(0.0, f64::max)
             };
-            let (mut open, mut closed): (Vec<Piece>, Vec<Piece>) =
-                pieces.into_iter().partition(|piece| excess(piece) > 1.0);
+            let wide = |piece: &Piece| excess(piece) > 1.0 && piece.ends[1] - piece.ends[0] > narrowest;
+            // What is closed stays so: the values seen only grow.
+            let (mut halved, done): (Vec<Piece>, Vec<Piece>) = open.into_iter().partition(wide);
+            closed.extend(done);
             // Stable, so that the order never depends on threads; the worst first, where the budget runs short.
-            open.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
-            let rest = open.split_off(open.len().min(left / 2));
-            if open.is_empty() {
-                closed.extend(rest);
+            halved.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
+            closed.extend(halved.split_off(halved.len().min(left / 2)));
+            if halved.is_empty() {
                 let bound = largest(&closed, n, |piece| &piece.bound);
                 let (torque, rate) = bound.split_at(n);
                 return Self { torque: torque.to_vec(), seen: seen[..n].to_vec(), rate: rate.to_vec() };
             }
-            left -= 2 * open.len();
-            let halves = open.iter().flat_map(|parent| {
+            left -= 2 * halved.len();
+            let halves = halved.iter().flat_map(|parent| {
                 let [from, to] = parent.ends;
                 let cut = motion.cut(from, to);
                 [(parent, [from, cut]), (parent, [cut, to])]
@@ -85,10 +92,7 @@ impl Feedforward {
             let halves: Vec<(&Piece, [f64; 2])> = halves.collect();
             let judged =
                 halves.into_par_iter().map(|(parent, ends)| family.judge(motion, ends).within(parent));
-            let judged: Vec<Piece> = judged.collect();
-            closed.extend(rest);
-            closed.extend(judged);
-            pieces = closed;
+            open = judged.collect();
         }
     }
 

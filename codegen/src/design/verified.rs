@@ -12,9 +12,9 @@ use nalgebra::DMatrix;
 /// Unit roundoff.
 const U: f64 = 0.5 * f64::EPSILON;
 /// By how much a guess is raised before its first trial, relative, and by what factor from one trial to the next.
-const FIRST: f64 = 1e-12;
+const FIRST: f64 = 1e-13;
 const STEP: f64 = 16.0;
-const TRIALS: i32 = 10;
+const TRIALS: i32 = 11;
 
 /// A bound on λ_max(A⁻¹B) from above for symmetric A and B ≽ 0 near `guess`: the first μ tried for which μA − B ≽ 0 is
 /// proved. Infinite where none is.

@@ -121,8 +121,10 @@ pub(super) struct Layers {
 /// the error of the one that is kept.
 pub(super) fn distinct(dof: usize, entries: Vec<Layers>) -> Lagrangian {
     let mut kept: Vec<(Layers, Vec<Place>)> = Vec::new();
+    let mut vanishing = Vec::new();
     for entry in entries {
         if entry.layers.iter().all(Expansion::is_empty) {
+            vanishing.push((entry.entry, entry.errors));
             continue;
         }
         let twin = kept
@@ -159,7 +161,8 @@ pub(super) fn distinct(dof: usize, entries: Vec<Layers>) -> Lagrangian {
             Coefficient { terms, variations: layers.collect(), places, errors }
         })
         .collect();
-    Lagrangian { dof, functions: functions.into_iter().collect(), coefficients, ranges: Vec::new() }
+    let functions = functions.into_iter().collect();
+    Lagrangian { dof, functions, coefficients, ranges: Vec::new(), vanishing }
 }
 
 /// Turns the coefficient so that its largest term, the first of equal ones, is positive: then sums rarely begin with

@@ -32,6 +32,9 @@ pub struct Lagrangian {
     pub coefficients: Vec<Coefficient>,
     /// Range [low, high] of each uncertain parameter u_k, which is 0 for the arm's own value; none where it is known.
     pub ranges: Vec<[f64; 2]>,
+    /// The entries that cannot be told from zero, with what they may be for all that: at the arm's own parameters, then by
+    /// each uncertain one.
+    pub vanishing: Vec<(Entry, Vec<Accuracy>)>,
 }
 
 impl Lagrangian {

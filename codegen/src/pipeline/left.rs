@@ -4,7 +4,7 @@ use crate::arm::{Arm, Uncertainty};
 use crate::body::Form;
 use crate::bounds::{
     Bounds, Certificate, Effort, Met, Rates, Torque, certified_telling, percent_up, published, reach,
-    recursion, recursion_rounding, torque_error, with_sines,
+    recursion, recursion_rounding, torque_error, vanishing, with_sines,
 };
 use crate::lagrangian::Lagrangian;
 use crate::load::Loaded;
@@ -127,18 +127,24 @@ impl Left<'_> {
     fn rounding(&self, rates: &Rates) -> Vec<f64> {
         let Self { lagrangian, reduced, domain, motion, .. } = *self;
         let reach = reach(domain, motion);
-        let whole = recursion_rounding(self.arm, &reach).torque(rates);
+        let n = lagrangian.dof;
+        let recursion = match self.form {
+            Form::Recursive => recursion_rounding(self.arm, &reach).torque(rates),
+            Form::Expanded | Form::Sparse => vec![0.0; n],
+        };
         if self.form == Form::Recursive && reduced.is_exact() {
-            return whole;
+            return recursion;
         }
         let each: Vec<f64> = (0..lagrangian.coefficients.len())
             .map(|m| if reduced.simplified[m] { 0.0 } else { published(lagrangian, m, reduced, &reach) })
             .collect();
-        let terms = |i: usize| -> f64 {
-            rates.multipliers(lagrangian, i).iter().zip(&each).map(|(u, rounding)| u * rounding).sum()
+        let vanishing = vanishing(lagrangian, &reach);
+        let of = |i: usize| -> f64 {
+            let terms = rates.multipliers(lagrangian, i).into_iter().zip(&each).map(|(u, most)| u * most);
+            let zeros = vanishing.iter().map(|&(entry, most)| rates.multiplier(entry, i) * most);
+            recursion[i] + terms.chain(zeros).sum::<f64>()
         };
-        // Entries that vanish to rounding have no coefficient.
-        whole.iter().enumerate().map(|(i, whole)| (whole + terms(i)).next_up()).collect()
+        (0..n).map(|i| of(i).next_up()).collect()
     }
 
     /// What is said where a tolerance, kept by the arm as specified, is not kept by all that it may be.

@@ -182,7 +182,9 @@ fn every_name_is_refused_clearly_or_compiles_without_a_warning() {
     package.modules(&names);
     let main = std::fs::read_to_string(package.path("src/main.rs")).expect("readable");
     let (head, _) = main.split_once("fn main").expect("a main");
-    package
-        .write("src/main.rs", &format!("{}fn main() {{}}\n", head.replace("include!", "::core::include!")));
+    package.write(
+        "src/main.rs",
+        &format!("{}{SHADOWED}fn main() {{}}\n", head.replace("include!", "::core::include!")),
+    );
     package.cargo(&["clippy", "--quiet", "--", "-D", "warnings"]).good();
 }
