@@ -1,143 +1,104 @@
-//! Damaged specifications: no panic, no internal error, and an end in good time.
+//! Damaged specifications and robot files: no panic, no internal error, and an end in good time and memory.
+//!
+//! `FUZZ_INPUTS` says how many of each; `.ci/nightly` runs 20 000.
+
+#[path = "fuzz/robots.rs"]
+mod robots;
+#[path = "fuzz/specifications.rs"]
+mod specifications;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use gramforge::{Error, Generation, load};
 
-const MUTANTS: usize = 2000;
+/// Inputs of each kind where the environment does not say.
+const INPUTS: usize = 500;
+/// The longest that one input may take.
+const LONGEST: Duration = Duration::from_secs(20);
+/// The most memory that the whole process may have had, bytes.
+const MEMORY: usize = 2_000_000_000;
 
-/// A small arm with every section, so that most of a mutant's time goes into checks.
-const SPEC: &str = r#"{
-  "name": "arm",
-  "arm": { "gravity": [0.0, 0.0, -9.81], "dh": { "convention": "modified", "links": [
-    { "joint": "revolute", "alpha": 1.5, "a": 0.1, "d": 0.5, "theta": 0.2, "mass": 5.5,
-      "first_moment": [0.0, -0.6, 0.0], "pseudo_inertia": { "xx": 0.1, "yy": 0.2, "zz": 0.1, "xy": 0.01 },
-      "motor": { "inertia": 0.001, "gear_ratio": 50.0, "coulomb_friction": [0.4, -0.3] },
-      "limits": { "position": [-3.0, 3.0], "velocity": 4.0, "acceleration": 9.0, "torque": 90.0 } },
-    { "joint": "prismatic", "alpha": 0.3, "a": 0.5, "d": 0.1, "mass": 4.0, "com": [-0.1, 0.0, 0.2],
-      "inertia": { "xx": 0.1, "yy": 0.1, "zz": 0.1 }, "armature": 0.3, "viscous_friction": 1.0,
-      "coulomb_friction": 0.2, "limits": { "position": [-2.0, 2.0] } } ] },
-    "payload": { "mass": 1.0, "com": [0.0, 0.0, 0.1], "inertia": { "xx": 0.1, "yy": 0.1, "zz": 0.1 } } },
-  "motion": MOTION,
-  "measure": { "tube": { "position_error": [0.2, 0.1] } },
-  "model": { "shared": { "functions": 2 } },
-  "control": { "law": "report", "period": 0.005, "W": [[40.0, 1.0], [1.0, 30.0]], "Pqq": [0.5, 0.25], "Omega": 1.0,
-    "boundary_layer": 0.05, "initial_error": { "position": 0.2, "velocity": [0.0, 0.1] },
-    "compensate_coulomb": true, "on_fault": "gravity" },
-  "simulation": { "duration": 1.0, "substeps": 4 }
-}"#;
-
-const MOTIONS: [&str; 3] = [
-    r#"{ "quintic": { "from": [0.0, 0.3], "to": [1.5, 1.2], "duration": 5.0 } }"#,
-    r#"{ "waypoints": { "times": [0.0, 1.0, 2.5], "positions": [[0.0, 0.3], [0.5, 0.4], [0.2, 0.1]] } }"#,
-    r#"{ "sinusoids": { "offset": [0.1, 0.2], "duration": 3.0,
-      "terms": [[{ "amplitude": 0.5, "frequency": 2.0, "phase": 0.1 }], []] } }"#,
-];
-
-/// What a token is replaced with.
-const REPLACEMENTS: [&str; 16] = [
-    "0",
-    "-1",
-    "1e300",
-    "-1e300",
-    "1e-300",
-    "1e154",
-    "1e40",
-    "1e18",
-    "1e-18",
-    "4294967295",
-    "null",
-    "true",
-    "\"x\"",
-    "[]",
-    "{}",
-    "[1, 2]",
-];
-
-/// Steele and Vigna's splitmix64: the same mutants everywhere.
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, sides: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) % sides as u64) as usize
-    }
+fn inputs() -> usize {
+    std::env::var("FUZZ_INPUTS").ok().and_then(|count| count.parse().ok()).unwrap_or(INPUTS)
 }
 
-/// Names, numbers, words and punctuation of a JSON text.
-fn tokens(text: &str) -> Vec<String> {
-    let mut out: Vec<String> = Vec::new();
-    let mut inside = false;
-    let mut fresh = true;
-    for c in text.chars() {
-        let quote = c == '"';
-        let alone = !inside && (c.is_whitespace() || "{}[]:,".contains(c));
-        if alone || fresh || (quote && !inside) {
-            out.push(String::new());
-        }
-        if let Some(last) = out.last_mut() {
-            last.push(c);
-        }
-        fresh = alone || (quote && inside);
-        inside ^= quote;
-    }
-    out.retain(|token| !token.trim().is_empty());
-    out
-}
-
-fn is_value(token: &str) -> bool {
-    token.parse::<f64>().is_ok() || token == "true"
-}
-
-fn mutant(number: usize) -> String {
-    let mut dice = Dice(number as u64);
-    let mut tokens = tokens(&SPEC.replace("MOTION", MOTIONS[number % MOTIONS.len()]));
-    for _ in 0..=dice.below(2) {
-        let at = dice.below(tokens.len());
-        let values: Vec<usize> = (0..tokens.len()).filter(|&i| is_value(&tokens[i])).collect();
-        match dice.below(8) {
-            0 => drop(tokens.remove(at)),
-            1 => tokens.insert(at, tokens[at].clone()),
-            2 => tokens[at] = REPLACEMENTS[dice.below(REPLACEMENTS.len())].to_string(),
-            // Most changes that get past the parser are of numbers.
-            _ => {
-                tokens[values[dice.below(values.len())]] = REPLACEMENTS[dice.below(REPLACEMENTS.len())].into()
-            }
-        }
-    }
-    tokens.join(" ")
-}
-
-fn outcome(text: &str) -> Result<(), Error> {
-    let generation = Generation::new(load::parse(text, Path::new("mutant.json"))?)?;
+fn outcome(text: &str, path: &Path) -> Result<(), Error> {
+    let generation = Generation::new(load::parse(text, path)?)?;
     generation.module().map(drop)
 }
 
-#[test]
-fn the_unspoilt_specifications_are_good() {
-    for motion in MOTIONS {
-        outcome(&SPEC.replace("MOTION", motion)).unwrap_or_else(|error| panic!("{error}"));
+/// The most memory that this process has had, bytes; 0 where the system does not say.
+fn memory() -> usize {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    line.and_then(|line| line.trim().trim_end_matches(" kB").parse::<usize>().ok()).map_or(0, |kb| 1000 * kb)
+}
+
+/// Runs all inputs; at least a twentieth must be generated and a twentieth refused.
+fn run(kind: &str, input: impl Fn(usize) -> String, judge: impl Fn(usize) -> Result<(), Error>) {
+    let (mut good, mut refused) = (0, 0);
+    let mut slowest = (Duration::ZERO, 0);
+    let mut failures = Vec::new();
+    let count = inputs();
+    for number in 0..count {
+        let start = Instant::now();
+        let fault = match catch_unwind(AssertUnwindSafe(|| judge(number))) {
+            Ok(Ok(())) => {
+                good += 1;
+                None
+            }
+            Ok(Err(Error::Input(faults))) if !faults.is_empty() => {
+                refused += 1;
+                None
+            }
+            Ok(Err(error)) => Some(error.to_string()),
+            Err(_) => Some("panic".to_string()),
+        };
+        slowest = slowest.max((start.elapsed(), number));
+        let late = (start.elapsed() > LONGEST).then(|| format!("{:?}", start.elapsed()));
+        failures.extend(fault.or(late).map(|what| format!("{kind} {number}: {what}\n{}", input(number))));
     }
+    println!(
+        "{kind}: {good} generated, {refused} refused, {} failed; slowest {:.1} s ({}), {} MB at most",
+        failures.len(),
+        slowest.0.as_secs_f64(),
+        slowest.1,
+        memory() / 1_000_000
+    );
+    let shown = failures.iter().take(5).cloned().collect::<Vec<_>>().join("\n\n");
+    assert!(failures.is_empty(), "{} of {count}:\n{shown}", failures.len());
+    assert!(good >= count / 20 && refused >= count / 20, "{good} generated, {refused} refused");
+    assert!(memory() < MEMORY, "{} bytes", memory());
 }
 
 #[test]
-fn mutants_are_generated_or_refused() {
-    let (mut good, mut refused) = (0, 0);
-    let mut failures = Vec::new();
-    for number in 0..MUTANTS {
-        let text = mutant(number);
-        match catch_unwind(AssertUnwindSafe(|| outcome(&text))) {
-            Ok(Ok(())) => good += 1,
-            Ok(Err(Error::Input(faults))) if !faults.is_empty() => refused += 1,
-            Ok(Err(error)) => failures.push(format!("{number}: {error}\n{text}")),
-            Err(_) => failures.push(format!("{number}: panic\n{text}")),
-        }
+fn the_unspoilt_inputs_are_good() {
+    for motion in specifications::MOTIONS {
+        outcome(&specifications::SPEC.replace("MOTION", motion), Path::new("whole.json"))
+            .unwrap_or_else(|error| panic!("{error}"));
     }
-    let shown = failures.iter().take(5).cloned().collect::<Vec<_>>().join("\n\n");
-    assert!(failures.is_empty(), "{} of {MUTANTS}:\n{shown}", failures.len());
-    assert!(good > MUTANTS / 20 && refused > MUTANTS / 4, "{good} generated, {refused} refused");
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("whole.urdf"), robots::ROBOT).expect("a file");
+    outcome(&robots::SPEC.replace("FILE", "whole.urdf"), &folder.path().join("whole.json"))
+        .unwrap_or_else(|error| panic!("{error}"));
+}
+
+#[test]
+fn damaged_specifications_are_generated_or_refused() {
+    let judge = |number| outcome(&specifications::mutant(number), Path::new("mutant.json"));
+    run("specification", specifications::mutant, judge);
+}
+
+#[test]
+fn damaged_robot_files_are_generated_or_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("mutant.urdf");
+    let spec = robots::SPEC.replace("FILE", "mutant.urdf");
+    let judge = |number| {
+        std::fs::write(&file, robots::mutant(number)).expect("a file");
+        outcome(&spec, &folder.path().join("mutant.json"))
+    };
+    run("robot file", |number| String::from_utf8_lossy(&robots::mutant(number)).into_owned(), judge);
 }
