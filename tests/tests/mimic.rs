@@ -30,7 +30,7 @@ fn chain(seed: u64) -> Chain {
     let multiplier = MULTIPLIERS[pick(MULTIPLIERS.len())];
     let other = MULTIPLIERS[pick(MULTIPLIERS.len())];
     let sliding = seed % 4 == 3;
-    let twice = joints > 3 && seed % 2 == 0;
+    let twice = joints > 3 && seed.is_multiple_of(2);
     let first = seed % 5 == 4;
     let follows: Vec<(usize, f64, f64)> = (0..joints)
         .map(|i| match i {
