@@ -5,7 +5,7 @@ mod arms;
 
 use std::path::{Path, PathBuf};
 
-use arms::{ACCELERATION, Case, RANGE, SPEED, case};
+use arms::{ACCELERATION, Case, RANGE, SPEED, case, welded};
 use gramforge::Generation;
 use gramforge::body::Form;
 use gramforge::bounds::Effort;
@@ -173,6 +173,9 @@ fn reduced_and_rounded_modules_keep_what_they_say() {
             })
         })
         .collect();
+    // Each too small to be seen, all of them together not.
+    all.push(made(&folder, welded(9.9e-12), "welded", |spec| spec["arm"]["round_angles"] = Value::Null));
+    assert!(all.last().is_some_and(|made| made.generation.arm != made.generation.given));
     let tolerances = (0..30_u64).into_par_iter().map(|index| {
         let torque = [0.001, 0.01, 0.05, 0.2][index as usize / 4 % 4];
         made(&folder, few(index), "tolerance", |spec| {

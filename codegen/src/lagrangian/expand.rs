@@ -9,7 +9,7 @@ use super::coefficients::{Accuracy, Entry, Layers, distinct};
 use super::coupled;
 use super::function::{Function, MAX_JOINTS, WHOLE};
 use super::transform::{Axis, grid_point, grid_size, transform};
-use crate::arm::{Arm, JointKind, Uncertainty};
+use crate::arm::{Arm, Body, JointKind, Uncertainty};
 use crate::dynamics::{Size, Sizes, gravity, mass_matrix, rounding};
 use crate::spread::Spread;
 
@@ -52,9 +52,59 @@ pub fn expand_family(arm: &Arm, uncertainty: &Uncertainty) -> Lagrangian {
 
 /// d_ij with i ≤ j, h_ijk with j ≤ k and g_i, and how well each is known.
 ///
-/// What is a term and what is rounding is decided here and nowhere else: by what the entry itself rounds by in the recursion
-/// behind the samples, not by the arm's largest coefficient, beside which a light joint vanishes.
+/// The model is the sum of those of single bodies on the joints that carry them. Each is expanded by itself, so that what a
+/// light hand adds to a heavy arm's inertia is not taken from a difference of large numbers. What is a term and what is
+/// rounding is decided here and nowhere else: by what the entry itself rounds by in the recursion behind the samples.
 fn entries(arm: &Arm) -> Vec<(Expansion, Accuracy)> {
+    if arm.linkage.is_some() {
+        return expanded(arm);
+    }
+    let n = arm.dof();
+    let mut parts: Vec<BTreeMap<Entry, (Expansion, Accuracy)>> = Vec::new();
+    for (index, joint) in arm.joints.iter().enumerate() {
+        if joint.body == Body::default() && joint.armature == 0.0 {
+            continue;
+        }
+        let mut alone = arm.clone();
+        alone.joints.truncate(index + 1);
+        for carrier in &mut alone.joints[..index] {
+            (carrier.body, carrier.armature) = (Body::default(), 0.0);
+        }
+        parts.push(Entry::all(index + 1).zip(expanded(&alone)).collect());
+    }
+    let entries: Vec<Entry> = Entry::all(n).collect();
+    entries.into_par_iter().map(|entry| sum(parts.iter().filter_map(|part| part.get(&entry)))).collect()
+}
+
+/// The sum of expansions of one entry. Terms that cancel leave no more than they were known to.
+fn sum<'a>(parts: impl Iterator<Item = &'a (Expansion, Accuracy)>) -> (Expansion, Accuracy) {
+    let mut terms: BTreeMap<Function, [f64; 2]> = BTreeMap::new();
+    let mut known = Accuracy::default();
+    for (expansion, accuracy) in parts {
+        known.error += accuracy.error;
+        // A body that adds nothing to the entry does not blur it.
+        if !expansion.is_empty() {
+            known.resolution += accuracy.resolution;
+        }
+        for (&function, &k) in expansion {
+            let [value, noise] = terms.entry(function).or_default();
+            *value += k;
+            *noise += accuracy.resolution + 2.0 * f64::EPSILON * k.abs();
+        }
+    }
+    let mut out = Expansion::new();
+    for (function, [value, noise]) in terms {
+        if value.abs() > noise {
+            out.insert(function, value);
+        } else {
+            known.error += value.abs();
+        }
+    }
+    (out, known)
+}
+
+/// The same of an arm as a whole.
+fn expanded(arm: &Arm) -> Vec<(Expansion, Accuracy)> {
     let n = arm.dof();
     // The nodes of a prismatic axis are −1, 0 and 1 m.
     let sizes = Sizes::within(arm, &vec![1.0; arm.moving().len()]);
