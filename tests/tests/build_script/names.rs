@@ -57,7 +57,7 @@ const NAMES: [&str; 44] = [
 
 /// A module of the user's, in which everything is called like something that generated code needs.
 const SHADOWED: &str = r#"
-#[allow(dead_code, clippy::all)]
+#[allow(dead_code, unused_imports, clippy::all)]
 mod shadowed {
     pub enum Option { Some, None }
     pub use Option::{None, Some};
