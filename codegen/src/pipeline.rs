@@ -199,7 +199,7 @@ impl Generation {
             let _stage = Stage::new(progress, "exact code", 1);
             body::exact(&arm, &lagrangian)
         };
-        warnings.extend(angles::advice(&loaded, &arm, &given, &lagrangian, &exact.1));
+        warnings.extend(angles::advice(&loaded, &arm, &given, &exact.1));
         let Model { reduced, form, mut code } = {
             let ask = Ask {
                 spec,

@@ -38,11 +38,8 @@ fn made(folder: &Path, case: Case, model: &str, edit: impl Fn(&mut Value)) -> Ma
     let name = format!("{}_{model}", spec["name"].as_str().unwrap());
     spec["name"] = json!(name);
     edit(&mut spec);
-    if let (Some(urdf), Some(file)) = (&case.urdf, spec["arm"]["urdf"].as_str()) {
-        // Written whole before it is read, whoever else writes the same.
-        let own = folder.join(format!("{name}.urdf"));
-        std::fs::write(&own, urdf).unwrap();
-        assert!(!file.is_empty());
+    if let Some(urdf) = &case.urdf {
+        std::fs::write(folder.join(format!("{name}.urdf")), urdf).unwrap();
         spec["arm"]["urdf"] = json!(format!("{name}.urdf"));
     }
     let path = folder.join(format!("{name}.json"));
@@ -209,4 +206,31 @@ fn reduced_and_rounded_modules_keep_what_they_say() {
     );
     assert!(rounded >= 20 && sparse >= 5 && simpler >= 1 && expanded >= 10);
     assert!(attained[0] > 0.5 && attained[1] > 0.05, "{attained:?}");
+}
+
+/// What is said to be saved by a larger `arm.round_angles` is saved by it.
+#[test]
+fn advice_on_angles_tells_what_it_saves() {
+    let folder = folder("twists_advice");
+    let mut told = 0;
+    for index in [1_u64, 2, 4, 8, 9, 12] {
+        let few = || case(index, 2, -7);
+        let made = |name: &str, angle: f64| {
+            made(&folder, few(), name, |spec| spec["arm"]["round_angles"] = json!(angle)).generation
+        };
+        let before = made("before", 0.0);
+        let now = before.exact_code.operations().arithmetic();
+        let Some(advice) = before.warnings.iter().find(|text| text.contains("arm.round_angles")) else {
+            continue;
+        };
+        let after = |mark: &str| {
+            let (_, rest) = advice.split_once(mark).expect("the words of the advice");
+            rest.split_whitespace().next().expect("a number")
+        };
+        let level: f64 = after("write ").parse().expect("an angle");
+        let saved: usize = after("which saves ").parse().expect("a number of operations");
+        assert_eq!(made("after", level).exact_code.operations().arithmetic(), now - saved, "{advice}");
+        told += 1;
+    }
+    assert!(told >= 3, "{told}");
 }

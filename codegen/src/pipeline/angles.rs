@@ -4,7 +4,7 @@ use crate::arm::{Arm, ROUND_ANGLES, distance};
 use crate::body;
 use crate::bounds::printed_up;
 use crate::graph::Graph;
-use crate::lagrangian::Lagrangian;
+use crate::lagrangian::expand;
 use crate::load::Loaded;
 
 /// Values of `arm.round_angles` that are tried: beyond the last an angle is not a right one written with few digits.
@@ -13,13 +13,7 @@ const LEVELS: [f64; 6] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
 /// What is said where a larger `arm.round_angles` would make the exact code cheaper: joint, angle, operations, the field.
 ///
 /// `exact` is the exact code of `arm`, and `given` the arm whose rotations have not been rounded.
-pub(super) fn advice(
-    loaded: &Loaded,
-    arm: &Arm,
-    given: &Arm,
-    lagrangian: &Lagrangian,
-    exact: &Graph,
-) -> Option<String> {
+pub(super) fn advice(loaded: &Loaded, arm: &Arm, given: &Arm, exact: &Graph) -> Option<String> {
     let own = loaded.spec.arm.round_angles.unwrap_or(ROUND_ANGLES);
     let mut last = arm.clone();
     let mut best: Option<(usize, f64, Arm)> = None;
@@ -29,7 +23,7 @@ pub(super) fn advice(
             continue;
         }
         last = rounded.clone();
-        let operations = body::exact(&rounded, lagrangian).1.operations().arithmetic();
+        let operations = body::exact(&rounded, &expand(&rounded)).1.operations().arithmetic();
         if operations < best.as_ref().map_or(exact.operations().arithmetic(), |best| best.0) {
             best = Some((operations, level, rounded));
         }

@@ -88,7 +88,6 @@ impl Left<'_> {
         let fraction = self.loaded.spec.model.tolerance().filter(|_| known);
         let proved = fraction.map(|fraction| scale.limits(fraction));
         let error = self.error(certificates, bounds, &scale.rates, proved);
-        debug_assert_eq!(scale.reserve.len(), scale.peak.len());
         Torque { error, peak: scale.peak, rates: scale.rates }
     }
 

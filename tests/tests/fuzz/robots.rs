@@ -27,9 +27,20 @@ pub const ROBOT: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 </robot>
 "#;
 
-/// The specification that names it as `FILE`.
-pub const SPEC: &str = r#"{ "name": "robot", "arm": { "urdf": "FILE", "tip": "tool" },
-  "motion": { "quintic": { "from": [0.0, 0.3, 0.0], "to": [0.4, 0.5, 0.1], "duration": 2.0 } }, "model": "exact" }"#;
+/// The specifications that name it as `robot.urdf`, one after the other: the exact model alone; reduced, under a law, with
+/// values over those of the file; two joints, one held.
+pub const SPECS: [&str; 3] = [
+    r#"{ "name": "robot", "arm": { "urdf": "robot.urdf", "tip": "tool" },
+      "motion": { "quintic": { "from": [0.0, 0.3, 0.0], "to": [0.4, 0.5, 0.1], "duration": 2.0 } }, "model": "exact" }"#,
+    r#"{ "name": "robot", "arm": { "urdf": "robot.urdf", "tip": "tool", "payload": { "mass": 0.5, "com": [0.0, 0.0, 0.05] },
+        "joints": { "j1": { "armature": 0.5, "limits": { "velocity": 3.0 } }, "j2": { "armature": 0.4 }, "j3": { "armature": 1.0 } } },
+      "motion": { "quintic": { "from": [0.0, 0.3, 0.0], "to": [0.4, 0.5, 0.1], "duration": 2.0 } },
+      "measure": { "tube": { "position_error": 0.05 } }, "model": { "shared": { "functions": 3 } },
+      "control": { "law": "tight", "period": 0.001, "W": 40.0, "Pqq": 1.0, "Omega": 4.0, "boundary_layer": 0.05 } }"#,
+    r#"{ "name": "robot", "arm": { "urdf": "robot.urdf", "tip": "tool", "lock": { "j3": 0.1 } },
+      "motion": { "sinusoids": { "offset": [0.1, 0.2], "duration": 2.0, "terms": [[{ "amplitude": 0.3, "frequency": 2.0, "phase": 0.0 }], []] } },
+      "model": { "tolerance": { "torque": 0.05 } } }"#,
+];
 
 /// What an attribute's value is replaced with.
 const VALUES: [&str; 32] = [
