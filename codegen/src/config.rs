@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use crate::bounds::Effort;
 use crate::check::read;
-use crate::error::{Error, Faults, Stale};
+use crate::error::{Diagnostics, Error, Stale};
 use crate::load::Loaded;
 use crate::output::{Wanted, is_current, write_all};
 use crate::pipeline::Generation;
@@ -174,15 +174,15 @@ impl Config {
 
     fn folder(&self) -> Result<PathBuf, Error> {
         let unset = || {
-            let mend = "set it with `out_dir`, or run inside a build script, where cargo sets OUT_DIR";
-            Error::input(Path::new("gramforge::Config"), "out_dir", "is not set", mend)
+            let help = "set it with `out_dir`, or run inside a build script, where cargo sets OUT_DIR";
+            Error::input(Path::new("gramforge::Config"), "out_dir", "is not set", help)
         };
         self.out_dir.clone().or_else(|| std::env::var_os("OUT_DIR").map(PathBuf::from)).ok_or_else(unset)
     }
 }
 
-fn same_name(spec: &Path, output: &Output, other: &Output) -> Vec<crate::error::Fault> {
-    let mut faults = Faults::of(spec);
+fn same_name(spec: &Path, output: &Output, other: &Output) -> Vec<crate::error::Diagnostic> {
+    let mut faults = Diagnostics::of(spec);
     let name = &output.generation.loaded.spec.name;
     let first = other.generation.loaded.path.display();
     faults.push("name", format!("is {name:?}, as in {first}"), "give every specification a name of its own");

@@ -28,22 +28,22 @@
 //! TR-EE 92-21, Purdue University, 1992.
 
 pub mod arm;
-pub mod body;
 pub mod bounds;
 pub mod check;
+pub mod choose;
 pub mod cli;
 pub mod config;
-pub mod design;
+pub mod control;
+pub mod domain;
 pub mod dynamics;
 pub mod emit;
 pub mod error;
 pub mod graph;
-pub mod interval;
 pub mod lagrangian;
 pub mod load;
-pub mod measure;
 pub mod motion;
 pub mod number;
+pub mod numerics;
 pub mod output;
 pub mod pipeline;
 pub mod progress;
@@ -51,11 +51,10 @@ pub mod reduction;
 pub mod report;
 pub mod reproduce;
 pub mod simulate;
-pub mod sines;
 pub mod spec;
-pub mod spread;
 pub mod text;
-pub mod tolerance;
+pub mod torque;
+pub mod trig;
 
 pub use config::{Config, Output};
 pub use error::Error;

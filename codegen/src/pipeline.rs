@@ -1,7 +1,6 @@
 //! All stages in order: from a checked specification to a model, its bounds, its controller and its code.
 
 mod angles;
-mod left;
 mod model;
 mod threads;
 mod verdict;
@@ -9,26 +8,26 @@ mod verdict;
 use std::path::Path;
 
 use crate::arm::{Arm, Built, JointKind, Uncertainty, indefinite, indefinite_among};
-use crate::body::{self, Form, Regressor};
-use crate::bounds::{Bounds, Certificate, Effort, Met, Torque, reach, rounded_angles};
+use crate::bounds::{
+    Bounds, Certificate, Effort, Met, ModelError, Torque, TorqueScale, position_bound, rounded_angles,
+};
 use crate::check::{examine, model, read, vector};
-use crate::design::{Design, Problem, checked, design};
+use crate::control::{Design, DesignProblem, checked, design};
+use crate::domain::{Domain, Measure};
 use crate::dynamics::mass_matrix;
 use crate::emit::{Module, emit};
-use crate::error::{Error, Faults};
+use crate::error::{Diagnostics, Error};
 use crate::graph::Graph;
 use crate::lagrangian::{Lagrangian, expand_family};
 use crate::load::{Loaded, spec_hash};
-use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::progress::{Progress, Silent, Stage};
 use crate::reduction::{self, Reduced, Regression};
-use crate::sines::Sines;
 use crate::spec::{LawSpec, MeasureSpec, RefitSpec, Spec};
-use crate::tolerance::Scale;
-use left::Left;
+use crate::torque::{self, Form, Regressor};
+use crate::trig::Trig;
 pub(crate) use model::dictionary;
-use model::{Ask, Model, check_count};
+use model::{Model, ModelRequest, check_count};
 
 /// Half-width of the tube where the specification names no measure, rad or m.
 pub(crate) const DEFAULT_TUBE: f64 = 0.05;
@@ -133,7 +132,7 @@ impl Generation {
 
     fn staged(loaded: Loaded, effort: &Effort, progress: &dyn Progress, looped: bool) -> Result<Self, Error> {
         threads::check()?;
-        let mut faults = Faults::of(&loaded.path);
+        let mut faults = Diagnostics::of(&loaded.path);
         let (built, motion) =
             if looped { examine(&loaded, &mut faults) } else { model(&loaded, &mut faults) };
         let Some(Built { arm, uncertainty, given, uncertain, mut warnings }) = built else {
@@ -159,13 +158,13 @@ impl Generation {
         }
 
         let domain = domain(spec, &arm)?;
-        let sines = Sines::new(&spec.emit.trig);
-        check_angles(&sines, &reach(&domain, motion.as_ref()), &arm, &mut faults);
+        let sines = Trig::new(&spec.emit.trig);
+        check_angles(&sines, &position_bound(&domain, motion.as_ref()), &arm, &mut faults);
         faults.finish(())?;
         let stage = Stage::new(progress, "measure", 1);
         let measure = Measure::new(&domain, motion.as_ref(), &arm);
-        let refused = |report: &dyn Fn(&mut Faults)| {
-            let mut faults = Faults::of(&loaded.path);
+        let refused = |report: &dyn Fn(&mut Diagnostics)| {
+            let mut faults = Diagnostics::of(&loaded.path);
             report(&mut faults);
             Err(faults.into_error())
         };
@@ -191,17 +190,17 @@ impl Generation {
             RefitSpec::LeastSquares => measure.points.clone(),
         };
         let turn = domain.within_a_turn(&arm, 1.0);
-        let reach = reach(&turn, motion.as_ref());
-        let angles = rounded_angles((&arm, &uncertainty), (&given, &uncertain), &reach);
-        let scale = Scale::new(&arm, &domain, motion.as_ref())
-            .map(|scale| scale.reserving((&arm, &lagrangian), &reach, angles.as_ref(), &sines));
+        let position_bound = position_bound(&turn, motion.as_ref());
+        let angles = rounded_angles((&arm, &uncertainty), (&given, &uncertain), &position_bound);
+        let scale = TorqueScale::new(&arm, &domain, motion.as_ref())
+            .map(|scale| scale.reserving((&arm, &lagrangian), &position_bound, angles.as_ref(), &sines));
         let exact = {
             let _stage = Stage::new(progress, "exact code", 1);
-            body::exact(&arm, &lagrangian)
+            torque::exact(&arm, &lagrangian)
         };
         warnings.extend(angles::advice(&loaded, &arm, &given, &exact.1));
         let Model { reduced, form, mut code } = {
-            let ask = Ask {
+            let request = ModelRequest {
                 spec,
                 arm: &arm,
                 lagrangian: &lagrangian,
@@ -211,7 +210,7 @@ impl Generation {
                 points: &points,
                 progress,
             };
-            ask.model(scale.as_ref(), &exact)
+            request.model(scale.as_ref(), &exact)
         };
         let exact_code = exact.1;
         let regression = learns.map(|control| {
@@ -227,9 +226,9 @@ impl Generation {
         drop(stage);
         if form == Form::Recursive && !sines.rounds() {
             // What coarse sines do is known of the plain recursion alone.
-            code = body::plain(&arm);
+            code = torque::plain(&arm);
         }
-        let left = Left {
+        let left = ModelError {
             loaded: &loaded,
             arm: &arm,
             uncertainty: &uncertainty,
@@ -251,20 +250,20 @@ impl Generation {
         }
         let bounds = bounds.rounded_up();
         let mut regressor =
-            regression.as_ref().map(|regression| body::regressor(&arm, &lagrangian, regression, form));
+            regression.as_ref().map(|regression| torque::regressor(&arm, &lagrangian, regression, form));
         if let Some(regressor) = &mut regressor {
             regressor.code.sines = sines.clone();
         }
         code.sines = sines.clone();
         if !(reduced.is_finite() && bounds.is_finite()) {
-            let mend = "write positions, speeds and the measure in SI units";
+            let help = "write positions, speeds and the measure in SI units";
             return refused(&|faults| {
-                faults.push("measure", "reaches states at which the model overflows", mend)
+                faults.push("measure", "reaches states at which the model overflows", help)
             });
         }
         let design = control
             .map(|control| {
-                design(&Problem {
+                design(&DesignProblem {
                     file: &loaded.path,
                     control,
                     arm: &arm,
@@ -283,8 +282,8 @@ impl Generation {
             .transpose()?;
         if design.as_ref().is_some_and(|design| !design.is_finite()) {
             let problem = "gives gains or bounds on the errors that overflow";
-            let mend = "write gains and initial errors in SI units";
-            return refused(&|faults| faults.push("control", problem, mend));
+            let help = "write gains and initial errors in SI units";
+            return refused(&|faults| faults.push("control", problem, help));
         }
         let met = {
             let _stage = Stage::new(progress, "torque error of the law", 1);
@@ -358,8 +357,9 @@ fn long(loaded: &Loaded, motion: &Motion) -> Option<String> {
 }
 
 /// Faults where the domain holds angles for which the sines chosen promise nothing.
-fn check_angles(sines: &Sines, reach: &[f64], arm: &Arm, faults: &mut Faults) {
-    let turning = arm.joints.iter().zip(reach).filter(|(joint, _)| joint.kind == JointKind::Revolute);
+fn check_angles(sines: &Trig, position_bound: &[f64], arm: &Arm, faults: &mut Diagnostics) {
+    let turning =
+        arm.joints.iter().zip(position_bound).filter(|(joint, _)| joint.kind == JointKind::Revolute);
     for (joint, most) in turning.filter(|(_, most)| **most > sines.range) {
         faults.push(
             "emit.trig",

@@ -7,9 +7,9 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use gramforge::bounds::{Effort, certified};
+use gramforge::domain::Measure;
 use gramforge::lagrangian::expand;
-use gramforge::measure::Measure;
-use gramforge::{Generation, body, reduction};
+use gramforge::{Generation, reduction, torque};
 use gramforge_tests::{arm, generation, spec};
 
 fn expansion(c: &mut Criterion) {
@@ -26,7 +26,7 @@ fn exact_code(c: &mut Criterion) {
     for name in ["arm3_exact", "puma560_exact"] {
         let arm = arm(name);
         let lagrangian = expand(&arm);
-        group.bench_function(name, |b| b.iter(|| body::exact(black_box(&arm), black_box(&lagrangian))));
+        group.bench_function(name, |b| b.iter(|| torque::exact(black_box(&arm), black_box(&lagrangian))));
     }
     group.finish();
 }

@@ -1,7 +1,7 @@
 //! Sizes of the exact models: p functions, r distinct coefficients, terms, operations.
 
-use gramforge::body::recursive;
 use gramforge::lagrangian::expand;
+use gramforge::torque::recursive;
 use gramforge_tests::arm;
 
 #[test]

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use gramforge::Generation;
-use gramforge::design::Design;
+use gramforge::control::Design;
 use gramforge::load::parse;
 use gramforge::simulate::{Comparison, Scenario, simulate};
 use serde_json::{Value, json};

@@ -4,13 +4,13 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use gramforge::Generation;
-use gramforge::body::Form;
 use gramforge::bounds::{Effort, Rates};
+use gramforge::domain::Domain;
 use gramforge::lagrangian::Values;
 use gramforge::load::load;
-use gramforge::measure::Domain;
+use gramforge::numerics::low_discrepancy::LowDiscrepancy;
 use gramforge::spec::ModelSpec;
-use gramforge::spread::Spread;
+use gramforge::torque::Form;
 
 const TOLERANCE: f64 = 0.05;
 
@@ -37,7 +37,7 @@ fn states(generation: &Generation, count: usize) -> impl Iterator<Item = State> 
     let Domain::Tube(errors) = &generation.domain else { panic!("no tube") };
     let n = generation.arm.dof();
     let rates = Rates::of(motion);
-    let spread = Spread::new(n + 1);
+    let spread = LowDiscrepancy::new(n + 1);
     (0..count).map(move |index| {
         let mut unit = spread.point(index);
         if index % 3 == 0 {
@@ -63,10 +63,10 @@ fn torque(values: &Values, [_, v, w, a]: &State) -> Vec<f64> {
 #[test]
 fn parameters_are_left_out_and_that_pays() {
     let generation = generation();
-    let dropped = generation.reduced.dropped.as_ref().expect("a recursion of a simpler arm");
+    let simplified_arm = generation.reduced.simplified_arm.as_ref().expect("a recursion of a simpler arm");
     assert_eq!(generation.form, Form::Recursive);
-    assert!(!dropped.parameters.is_empty() && generation.reduced.simplified.contains(&true));
-    assert!(generation.code.operations().price() < generation.exact_code.operations().price());
+    assert!(!simplified_arm.parameters.is_empty() && generation.reduced.simplified.contains(&true));
+    assert!(generation.code.operations().cost() < generation.exact_code.operations().cost());
 }
 
 /// Nearer than 1e-11 of the peak, and within the rounding that the certificates allow for.
@@ -74,7 +74,7 @@ fn parameters_are_left_out_and_that_pays() {
 fn the_code_computes_the_combinations() {
     let generation = generation();
     let peak = &generation.torque.as_ref().unwrap().peak;
-    let rounding = &generation.reduced.dropped.as_ref().unwrap().rounding;
+    let rounding = &generation.reduced.simplified_arm.as_ref().unwrap().rounding;
     let multipliers: Vec<Vec<f64>> = (0..peak.len())
         .map(|i| Rates::of(generation.motion.as_ref().unwrap()).multipliers(&generation.lagrangian, i))
         .collect();
@@ -132,8 +132,8 @@ fn the_same_with_one_thread() {
 
 #[test]
 fn a_looser_tolerance_costs_no_more() {
-    let price = |generation: &Generation| generation.code.operations().price();
+    let cost = |generation: &Generation| generation.code.operations().cost();
     let strict = made(0.01);
-    assert!(price(&strict) <= strict.exact_code.operations().price());
-    assert!(price(generation()) <= price(&strict));
+    assert!(cost(&strict) <= strict.exact_code.operations().cost());
+    assert!(cost(generation()) <= cost(&strict));
 }

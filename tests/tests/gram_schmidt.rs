@@ -1,8 +1,8 @@
 //! The selection (3)–(8) against dense QR factorisations made anew at every step, and what follows from its theory.
 
 use gramforge::arm::Arm;
+use gramforge::domain::{Domain, Measure};
 use gramforge::lagrangian::{Lagrangian, evaluate, expand};
-use gramforge::measure::{Domain, Measure};
 use gramforge::motion::Motion;
 use gramforge::reduction::{GramSchmidt, Reduced, Samples, shared, weight};
 use gramforge_tests::random::Random;

@@ -8,8 +8,8 @@ mod closed;
 
 use closed::{Loop, dot, member, report};
 use gramforge::Generation;
-use gramforge::design::Design;
-use gramforge::measure::Domain;
+use gramforge::control::Design;
+use gramforge::domain::Domain;
 use gramforge::simulate::GraphModel;
 use gramforge_generated::arm3_adaptive_guaranteed as adaptive;
 use gramforge_generated::puma560_xi6;

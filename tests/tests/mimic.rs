@@ -1,6 +1,6 @@
 //! Arms some of whose joints follow others, against an outside oracle: D, C, G and τ of the coordinates.
 
-use gramforge::body::{expanded, plain, recursive};
+use gramforge::torque::{expanded, plain, recursive};
 use gramforge::{Generation, dynamics, reduction};
 use gramforge_runtime::Model;
 use gramforge_tests::chain::{Chain, Link};

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use gramforge::Generation;
 use gramforge::bounds::{Effort, certified};
+use gramforge::domain::Measure;
 use gramforge::lagrangian::Lagrangian;
 use gramforge::load::load;
-use gramforge::measure::Measure;
 use gramforge::reduction::{Reduced, extremes, minimax, shared, weight};
 use gramforge::spec::ModelSpec;
 

@@ -6,9 +6,9 @@ use gramforge::Generation;
 use gramforge::bounds::Effort;
 use gramforge::lagrangian::evaluate;
 use gramforge::load::load;
+use gramforge::numerics::low_discrepancy::{LowDiscrepancy, in_box};
 use gramforge::reduction::Reduced;
 use gramforge::spec::{ModelSpec, RefitSpec};
-use gramforge::spread::{Spread, in_box};
 
 /// The PUMA 560's first three links; full certificates are tested elsewhere.
 fn made(functions: usize, refit: RefitSpec) -> Generation {
@@ -50,16 +50,16 @@ fn no_position_exceeds_a_bound() {
     for refit in [RefitSpec::LeastSquares, RefitSpec::Minimax] {
         let made = made(2, refit);
         let motion = made.motion.as_ref();
-        let spread = Spread::new(made.arm.dof() + 1);
+        let spread = LowDiscrepancy::new(made.arm.dof() + 1);
         let mut seen = 0.0_f64;
         for index in 0..4_000 {
             let unit = spread.point(index);
             let q: Vec<f64> = match (&made.domain, motion) {
-                (gramforge::measure::Domain::Tube(errors), Some(motion)) => {
+                (gramforge::domain::Domain::Tube(errors), Some(motion)) => {
                     let centre = motion.at(motion.duration() * unit[made.arm.dof()]).q;
                     centre.iter().zip(errors).zip(&unit).map(|((q, e), u)| q + e * (2.0 * u - 1.0)).collect()
                 }
-                (gramforge::measure::Domain::Workspace(limits), _) => in_box(limits, &unit),
+                (gramforge::domain::Domain::Workspace(limits), _) => in_box(limits, &unit),
                 _ => continue,
             };
             let psi = made.lagrangian.evaluate_functions(&q);

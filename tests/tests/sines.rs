@@ -2,12 +2,12 @@
 
 use gramforge::Generation;
 use gramforge::arm::Arm;
-use gramforge::body::{Form, recursive};
 use gramforge::bounds::{Bounds, recursion};
 use gramforge::dynamics::{coriolis, gravity, mass_matrix};
 use gramforge::graph::Graph;
 use gramforge::load::{Loaded, parse, spec_hash};
-use gramforge::sines::{Kind, Sines};
+use gramforge::torque::{Form, recursive};
+use gramforge::trig::{Kind, Trig};
 use gramforge_tests::random::Random;
 use gramforge_tests::{arm, motion, spec};
 use serde_json::{Value, json};
@@ -90,9 +90,9 @@ fn ratio(arm: &Arm, code: &Graph, bounds: &Bounds, q: &[f64]) -> f64 {
 }
 
 /// Sine and cosine off by ±`error`, for each joint as the bits of `pattern` say.
-fn off(error: f64, q: &[f64], pattern: usize) -> Sines {
+fn off(error: f64, q: &[f64], pattern: usize) -> Trig {
     let q = q.to_vec();
-    Sines::own(Kind::Polynomial, error, move |x| {
+    Trig::own(Kind::Polynomial, error, move |x| {
         let joint = q.iter().position(|&q| q == x).unwrap_or(0);
         let sign = |bit: usize| if pattern >> bit & 1 == 1 { error } else { -error };
         let (sin, cos) = gramforge_runtime::Real::sin_cos(x);
@@ -183,8 +183,8 @@ fn an_exact_recursive_body_has_the_bounds_of_its_sines() {
             for _ in 0..300 {
                 let t = motion.duration() * (0.5 + 0.5 * random.signed());
                 let q: Vec<f64> = motion.at(t).q.iter().map(|q| q + random.signed()).collect();
-                let reach: Vec<f64> = q.iter().map(|q| q.abs()).collect();
-                let bounds = recursion(&arm, &reach, error);
+                let position_bound: Vec<f64> = q.iter().map(|q| q.abs()).collect();
+                let bounds = recursion(&arm, &position_bound, error);
                 code.sines = off(error, &q, (random.signed().to_bits() >> 8) as usize % (1 << (2 * n)));
                 worst = worst.max(ratio(&arm, &code, &bounds, &q));
             }

@@ -6,17 +6,17 @@
 use std::path::{Path, PathBuf};
 
 use gramforge::Generation;
-use gramforge::body::recursive;
 use gramforge::bounds::{Effort, Rates};
+use gramforge::choose::why_exact;
+use gramforge::domain::Domain;
 use gramforge::dynamics::inverse_dynamics;
 use gramforge::graph::Graph;
 use gramforge::lagrangian::{Combination, evaluate, expand};
 use gramforge::load::{Loaded, load};
-use gramforge::measure::Domain;
+use gramforge::numerics::low_discrepancy::{LowDiscrepancy, in_box};
 use gramforge::reduction::{Dictionary, products};
 use gramforge::spec::{DictionarySpec, MeasureSpec, ModelSpec};
-use gramforge::spread::{Spread, in_box};
-use gramforge::tolerance::why_exact;
+use gramforge::torque::recursive;
 
 fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(name).with_extension("json")
@@ -151,7 +151,7 @@ impl Arena<'_> {
 fn search(generation: &Generation, states: usize) -> f64 {
     let arena = Arena::new(generation);
     let n = generation.arm.dof();
-    let spread = Spread::new(n + 1);
+    let spread = LowDiscrepancy::new(n + 1);
     let state = |index: usize| {
         let side = |u: &f64| (0.5 + 1.4 * (u - 0.5)).clamp(0.0, 1.0);
         let signs = (index + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 7;
@@ -176,9 +176,9 @@ fn sweep(loaded: &Loaded, tolerances: &[f64], states: usize) -> Vec<Generation> 
     for &tolerance in tolerances {
         let generation = within(loaded, tolerance);
         let (own, exact) = (generation.code.operations(), generation.exact_code.operations());
-        assert!(own.price() <= exact.price(), "{tolerance}: {own:?}, exact {exact:?}");
-        assert!(own.price() <= before, "{tolerance} costs {} after {before}", own.price());
-        before = own.price();
+        assert!(own.cost() <= exact.cost(), "{tolerance}: {own:?}, exact {exact:?}");
+        assert!(own.cost() <= before, "{tolerance} costs {} after {before}", own.cost());
+        before = own.cost();
         let certified = generation.torque.as_ref().unwrap().fraction();
         assert!(certified <= tolerance, "{tolerance}: certified {certified}");
         let found = search(&generation, states);
@@ -193,9 +193,9 @@ fn sweep(loaded: &Loaded, tolerances: &[f64], states: usize) -> Vec<Generation> 
 fn looser_tolerances_cost_less_and_every_certificate_holds() {
     let loaded = workspace();
     let sweep = sweep(&loaded, &[0.001, 0.005, 0.01, 0.03, 0.1, 0.2], 3_000);
-    let price = |generation: &Generation| generation.code.operations().price();
+    let cost = |generation: &Generation| generation.code.operations().cost();
     let (first, last) = (sweep.first().unwrap(), sweep.last().unwrap());
-    assert!(price(last) < price(&sweep[2]) && price(&sweep[2]) < price(first));
+    assert!(cost(last) < cost(&sweep[2]) && cost(&sweep[2]) < cost(first));
     assert_eq!(last.form.name(), "sparse");
     // The certificate is not idle: a search comes near it.
     assert!(search(last, 5_000) > 0.8);
@@ -234,8 +234,8 @@ fn a_workspace_of_many_turns_is_reduced_as_one_turn_is() {
         within(&written(&spec), 0.05)
     };
     let (one, hundred) = (reduced(1.0), reduced(100.0));
-    let price = |generation: &Generation| generation.code.operations().price();
-    assert!(price(&hundred) * 10 <= price(&one) * 11, "{} after {}", price(&hundred), price(&one));
+    let cost = |generation: &Generation| generation.code.operations().cost();
+    assert!(cost(&hundred) * 10 <= cost(&one) * 11, "{} after {}", cost(&hundred), cost(&one));
     assert!(search(&hundred, 3_000) > 0.5);
 }
 
@@ -269,7 +269,7 @@ fn the_certificate_of_an_uncertain_arm_holds_for_all_of_them() {
         assert_eq!(attacked(&spec, 0.05).uncertainty.parameters.len(), 2);
     }
     let simpler = attacked(&uncertain("stanford", serde_json::json!([])), 0.002);
-    assert!(simpler.reduced.dropped.is_some());
+    assert!(simpler.reduced.simplified_arm.is_some());
 }
 
 #[test]
@@ -323,7 +323,7 @@ fn the_peak_torque_over_a_workspace_is_reached() {
         let (v, a) = (corner(&rates.speed, 0), corner(&rates.reference_acceleration, n));
         inverse_dynamics(arm, &in_box(&limits, unit), &v, &a)
     };
-    let spread = Spread::new(n);
+    let spread = LowDiscrepancy::new(n);
     for i in 0..n {
         let state = |index: usize| (spread.point(index / 64), index % 64);
         let all = (0..64 * 300).map(state);

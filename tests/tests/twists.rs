@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use arms::{ACCELERATION, Case, RANGE, SPEED, case, welded};
 use gramforge::Generation;
-use gramforge::body::Form;
 use gramforge::bounds::Effort;
 use gramforge::load::load;
+use gramforge::torque::Form;
 use gramforge_tests::oracle::passivity_torque;
 use gramforge_tests::random::Random;
 use gramforge_tests::scratch::{Call, compile};
@@ -198,7 +198,7 @@ fn reduced_and_rounded_modules_keep_what_they_say() {
     let count = |is: &dyn Fn(&Generation) -> bool| all.iter().filter(|made| is(&made.generation)).count();
     let rounded = count(&|g| g.arm != g.given);
     let sparse = count(&|g| g.form == Form::Sparse);
-    let simpler = count(&|g| g.reduced.dropped.is_some());
+    let simpler = count(&|g| g.reduced.simplified_arm.is_some());
     let expanded = count(&|g| g.form == Form::Expanded && !g.reduced.is_exact());
     println!(
         "{rounded} rounded, {sparse} sparse, {simpler} simpler arms, {expanded} expanded; largest part of what is said: reduced {:.3}, rounded {:.3}",

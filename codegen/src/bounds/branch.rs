@@ -9,7 +9,7 @@ use super::queue::Queue;
 use super::region::{Cell, Region};
 use super::residual::{Residual, narrow};
 use super::{Effort, LONG};
-use crate::measure::Domain;
+use crate::domain::Domain;
 use crate::motion::Motion;
 
 /// Residuals beyond which a joint maximum gets no larger budget.

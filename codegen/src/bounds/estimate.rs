@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use super::polynomial::Scratch;
 use super::region::Region;
 use super::residuals;
+use crate::domain::Domain;
 use crate::lagrangian::Lagrangian;
-use crate::measure::Domain;
 use crate::motion::Motion;
 use crate::reduction::Reduced;
 

@@ -12,8 +12,8 @@
 
 use super::{Certificate, Effort, certified};
 use crate::arm::{Parameter, Uncertainty};
+use crate::domain::Domain;
 use crate::lagrangian::Lagrangian;
-use crate::measure::Domain;
 use crate::motion::Motion;
 use crate::reduction::Reduced;
 

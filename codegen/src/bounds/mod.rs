@@ -13,6 +13,7 @@ mod expansion;
 mod factor;
 mod grid;
 mod lattice;
+mod model_error;
 mod peak;
 mod polynomial;
 mod queue;
@@ -21,31 +22,35 @@ mod recursion;
 mod region;
 mod residual;
 mod rounding;
-mod sines;
 mod sum;
 mod taylor;
 mod tensors;
 #[cfg(test)]
 mod tests;
 mod torque;
+mod torque_scale;
+mod trig;
 mod weighted;
 
 pub use estimate::estimate;
 pub use factor::{factor, factor_bounds};
+pub(crate) use model_error::ModelError;
 pub use peak::workspace_peak_torque;
 pub use rates::Rates;
 pub use recursion::{beside_expansion, recursion, recursion_rounding, rounded_angles};
-pub use region::reach;
+pub use region::position_bound;
 pub(crate) use rounding::{percent_up, printed_down, printed_up, published, vanishing};
-pub(crate) use sines::largest_growth;
-pub use sines::with_sines;
 pub use torque::{Met, Torque, peak_torque, separate_error, torque_error, torque_exceeds};
+pub(crate) use torque_scale::SCATTERED;
+pub use torque_scale::TorqueScale;
+pub(crate) use trig::largest_growth;
+pub use trig::with_sines;
 
 use rayon::prelude::*;
 
+use crate::domain::Domain;
 use crate::dynamics::{Size, Sizes};
 use crate::lagrangian::{Coefficient, Combination, Entry, Lagrangian};
-use crate::measure::Domain;
 use crate::motion::Motion;
 use crate::progress::{Progress, Silent, Stage};
 use crate::reduction::{Reduced, plus};
@@ -171,7 +176,7 @@ fn certify(
     known: impl Fn(usize) -> Option<Certificate> + Sync,
     progress: &dyn Progress,
 ) -> Vec<Certificate> {
-    let reach = reach(domain, motion);
+    let position_bound = position_bound(domain, motion);
     let residuals = residuals(lagrangian, reduced, domain, motion);
     let simplified = residuals.iter().filter(|residuals| !residuals.is_empty()).count();
     let stage = Stage::new(progress, "certification of coefficients", simplified);
@@ -188,7 +193,7 @@ fn certify(
             }
             let size = size(&lagrangian.coefficients[m]);
             let proof = branch::maximum(&residuals, domain, motion, effort, FLOOR * size);
-            let rounding = rounding::published(lagrangian, m, reduced, &reach);
+            let rounding = rounding::published(lagrangian, m, reduced, &position_bound);
             let bound = (proof.upper + rounding).next_up();
             let region = Region::new(domain, motion, &residuals[proof.residual].polynomial.joints);
             let (time, witness) = region.position(lagrangian.dof, &proof.found.x);
@@ -207,13 +212,13 @@ fn residuals(
     domain: &Domain,
     motion: Option<&Motion>,
 ) -> Vec<Vec<Residual>> {
-    let reach = reach(domain, motion);
+    let position_bound = position_bound(domain, motion);
     (0..lagrangian.coefficients.len())
         .into_par_iter()
         .map(|m| {
             let prepare = |terms: Combination| {
                 let polynomial = Polynomial::new(terms.iter().map(|&(l, k)| (&lagrangian.functions[l], k)));
-                Residual::new(polynomial, domain, motion, &reach)
+                Residual::new(polynomial, domain, motion, &position_bound)
             };
             at_vertices(lagrangian, reduced, m).into_iter().map(prepare).collect()
         })

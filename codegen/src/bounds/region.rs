@@ -1,7 +1,7 @@
 //! The domain as a box of variables: the errors (or positions) of the joints that occur, and time.
 
+use crate::domain::Domain;
 use crate::lagrangian::MAX_JOINTS;
-use crate::measure::Domain;
 use crate::motion::Motion;
 
 /// Most variables: all joints and time.
@@ -135,14 +135,14 @@ impl<'a> Region<'a> {
 }
 
 /// Bounds on |q_j| over a domain, by joint of the arm.
-pub fn reach(domain: &Domain, motion: Option<&Motion>) -> Vec<f64> {
+pub fn position_bound(domain: &Domain, motion: Option<&Motion>) -> Vec<f64> {
     match (domain, motion) {
         (Domain::Workspace(limits), _) => limits.iter().map(|[a, b]| a.abs().max(b.abs())).collect(),
         (Domain::Tube(errors), Some(motion)) => {
-            motion.reach().position.iter().zip(errors).map(|(q, e)| q + e.abs()).collect()
+            motion.position_bound().position.iter().zip(errors).map(|(q, e)| q + e.abs()).collect()
         }
         (Domain::Tube(errors), None) => errors.iter().map(|e| e.abs()).collect(),
-        (Domain::Trajectory, Some(motion)) => motion.reach().position,
+        (Domain::Trajectory, Some(motion)) => motion.position_bound().position,
         (Domain::Trajectory, None) => vec![0.0; MAX_JOINTS],
     }
 }

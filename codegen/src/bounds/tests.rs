@@ -6,14 +6,14 @@ use super::polynomial::{Polynomial, Scratch};
 use super::region::{Cell, Region};
 use super::residual::Residual;
 use super::{Bounds, DIGITS, Effort};
+use crate::domain::Domain;
 use crate::lagrangian::{Function, MAX_JOINTS};
-use crate::measure::Domain;
 use crate::motion::Motion;
-use crate::spread::Spread;
+use crate::numerics::low_discrepancy::LowDiscrepancy;
 
 /// Twenty terms over three revolute joints and a prismatic one, in slots 0, 1, 3 and 2.
 fn terms() -> Vec<(Function, f64)> {
-    let spread = Spread::new(6);
+    let spread = LowDiscrepancy::new(6);
     let term = |index: usize| {
         let u = spread.point(index);
         let pick = |x: f64, low: i8, count: f64| low + (x * count) as i8;
@@ -66,12 +66,12 @@ fn no_point_of_a_cell_exceeds_its_enclosure() {
     let workspace = Domain::Workspace(vec![[-1.0, 2.0], [-3.0, 0.5], [0.1, 0.9], [-2.0, 2.0]]);
     for (domain, motion) in [(tube, Some(&motion)), (workspace, None)] {
         let polynomial = Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k)));
-        let reach = super::reach(&domain, motion);
-        let residual = Residual::new(polynomial, &domain, motion, &reach);
+        let position_bound = super::position_bound(&domain, motion);
+        let residual = Residual::new(polynomial, &domain, motion, &position_bound);
         let region = Region::new(&domain, motion, &residual.polynomial.joints);
         let (count, mut scratch) = (region.variables(), Scratch::default());
         let mut expander = Expander::new(&residual);
-        let (cells, inside) = (Spread::new(2 * count), Spread::new(count));
+        let (cells, inside) = (LowDiscrepancy::new(2 * count), LowDiscrepancy::new(count));
         for index in 0..300 {
             let unit = cells.point(index);
             let size = [1.0, 0.3, 0.1, 0.01][index % 4];
@@ -145,7 +145,7 @@ fn the_excess_over_the_quadratic_falls_with_the_third_power() {
 fn a_joint_maximum_is_the_largest_of_the_separate_ones_for_fewer_boxes() {
     let motion = motion();
     let domain = Domain::Tube(vec![0.2; 4]);
-    let reach = super::reach(&domain, Some(&motion));
+    let position_bound = super::position_bound(&domain, Some(&motion));
     // What uncertain parameters do to a residual: each vertex of their box changes a few of its coefficients, and at
     // some a joint drops out.
     let vertex = |bits: usize| {
@@ -157,7 +157,7 @@ fn a_joint_maximum_is_the_largest_of_the_separate_ones_for_fewer_boxes() {
             terms.retain(|(psi, _)| psi.power[2] == 0);
         }
         let polynomial = Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k)));
-        Residual::new(polynomial, &domain, Some(&motion), &reach)
+        Residual::new(polynomial, &domain, Some(&motion), &position_bound)
     };
     let residuals: Vec<Residual> = (0..8).map(vertex).collect();
     let effort = Effort { boxes: 20_000, ..Effort::default() };
@@ -215,7 +215,7 @@ fn an_expansion_is_near_the_residual_and_its_bounds_nearer_than_the_residual_s()
 
 #[test]
 fn published_bounds_have_few_digits_and_never_lie_below() {
-    let spread = Spread::new(1);
+    let spread = LowDiscrepancy::new(1);
     let value = |index: usize| 10.0 * spread.point(index)[0] + 1e-7;
     let row = |from: usize| (from..from + 3).map(value).collect::<Vec<f64>>();
     let own = Bounds {

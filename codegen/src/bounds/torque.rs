@@ -3,15 +3,15 @@
 use rayon::prelude::*;
 
 use super::rates::Rates;
-use super::region::{Region, reach};
+use super::region::{Region, position_bound};
 use super::residual::Residual;
 use super::sum::{Part, Stop};
 use super::weighted::Weighted;
 use super::{Certificate, lattice, residuals, rounding};
 use crate::arm::Arm;
+use crate::domain::Domain;
 use crate::dynamics::inverse_dynamics;
 use crate::lagrangian::Lagrangian;
-use crate::measure::Domain;
 use crate::motion::Motion;
 use crate::reduction::Reduced;
 
@@ -110,7 +110,7 @@ struct Sums<'a> {
     motion: Option<&'a Motion>,
     /// At the vertices of the uncertain parameters' box.
     residuals: Vec<Vec<Residual>>,
-    reach: Vec<f64>,
+    position_bound: Vec<f64>,
 }
 
 impl<'a> Sums<'a> {
@@ -121,7 +121,14 @@ impl<'a> Sums<'a> {
         motion: Option<&'a Motion>,
     ) -> Self {
         let residuals = residuals(lagrangian, reduced, domain, motion);
-        Self { lagrangian, reduced, domain, motion, residuals, reach: reach(domain, motion) }
+        Self {
+            lagrangian,
+            reduced,
+            domain,
+            motion,
+            residuals,
+            position_bound: position_bound(domain, motion),
+        }
     }
 
     /// The bound for joint `i`.
@@ -136,7 +143,8 @@ impl<'a> Sums<'a> {
             if vertices.is_empty() || multipliers[m] <= 0.0 {
                 continue;
             }
-            extra += multipliers[m] * rounding::published(self.lagrangian, m, self.reduced, &self.reach);
+            extra +=
+                multipliers[m] * rounding::published(self.lagrangian, m, self.reduced, &self.position_bound);
             let cap = certificates[m].bound;
             parts.push(Part { vertices, multiplier: multipliers[m], cap });
             // Several vertices are enclosed by themselves.
@@ -163,7 +171,8 @@ impl<'a> Sums<'a> {
             Domain::Workspace(limits) => lattice::range(&parts, limits, &stop),
             _ => {
                 let region = Region::new(self.domain, self.motion, &joints);
-                Weighted::new(parts, &terms, self.domain, self.motion, &self.reach).range(&region, &stop)
+                Weighted::new(parts, &terms, self.domain, self.motion, &self.position_bound)
+                    .range(&region, &stop)
             }
         };
         let bound = ((range.upper + extra).min(separate) * slack).next_up();

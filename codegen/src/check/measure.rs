@@ -2,11 +2,11 @@
 
 use super::shape::entries;
 use crate::arm::{Arm, Limits};
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::spec::{MeasureSpec, Spec};
 
 /// Checks `spec.measure`; absent it is a tube, which needs a motion.
-pub(super) fn check(spec: &Spec, arm: Option<&Arm>, joints: Option<usize>, faults: &mut Faults) {
+pub(super) fn check(spec: &Spec, arm: Option<&Arm>, joints: Option<usize>, faults: &mut Diagnostics) {
     match &spec.measure {
         Some(MeasureSpec::Workspace) => {
             if let Some(arm) = arm {
@@ -41,7 +41,7 @@ pub(super) fn check(spec: &Spec, arm: Option<&Arm>, joints: Option<usize>, fault
 /// Time in which a joint reaches its top speed at the acceleration that is proposed for it, s.
 const RISE: f64 = 0.2;
 
-fn limits(spec: &Spec, arm: &Arm, faults: &mut Faults) {
+fn limits(spec: &Spec, arm: &Arm, faults: &mut Diagnostics) {
     let lacking: Vec<String> = arm
         .joints
         .iter()
@@ -58,12 +58,12 @@ fn limits(spec: &Spec, arm: &Arm, faults: &mut Faults) {
         .collect();
     if !lacking.is_empty() {
         let problem = format!("is \"workspace\", but of the joint limits {}", lacking.join(", "));
-        faults.push("measure", problem, mend(spec, arm));
+        faults.push("measure", problem, help(spec, arm));
     }
 }
 
 /// Where the limits are written, with an acceleration to begin with for the first joint that lacks one.
-fn mend(spec: &Spec, arm: &Arm) -> String {
+fn help(spec: &Spec, arm: &Arm) -> String {
     let otherwise = "or choose `tube` or `trajectory`";
     let field = |i: usize, name: &str| match spec.arm.urdf {
         Some(_) => format!("arm.joints.{name}.limits"),

@@ -1,7 +1,7 @@
 //! Whether the numbers of a specification make sense together with its arm.
 
 mod control;
-mod design;
+mod gain_request;
 mod measure;
 mod motion;
 mod name;
@@ -10,11 +10,11 @@ mod shape;
 use std::path::Path;
 
 use crate::arm::{Arm, Built, MOST_JOINTS};
-use crate::error::{Error, Fault, Faults};
+use crate::error::{Diagnostic, Diagnostics, Error};
 use crate::load::{Draft, Loaded, draft};
 use crate::motion::Motion;
-use crate::sines::{COARSEST, FINEST};
 use crate::spec::{DictionarySpec, LawSpec, ModelSpec, Spec, TrigSpec};
+use crate::trig::{COARSEST, FINEST};
 
 pub(crate) use name::is_module_name;
 pub(crate) use shape::has;
@@ -50,12 +50,12 @@ pub fn read(path: &Path) -> Result<Loaded, Error> {
     if faults.is_empty() {
         return Ok(loaded);
     }
-    let mut values = Faults::of(&loaded.path);
+    let mut values = Diagnostics::of(&loaded.path);
     examine(&loaded, &mut values);
     // Faults of what stands in for a section, or of its absence, are none of the user's.
     let gone = |section: &str| lost.contains(section);
     let together = ["dictionary", "emit.trig", "control.law"];
-    let known = |fault: &&Fault| {
+    let known = |fault: &&Diagnostic| {
         let section = fault.field.split(['.', '[']).next().unwrap_or_default();
         !(gone(section) || gone("model") && together.contains(&fault.field.as_str()))
     };
@@ -68,7 +68,7 @@ pub fn read(path: &Path) -> Result<Loaded, Error> {
 /// # Errors
 /// [`Error::Input`] with every fault that [`examine`] finds.
 pub fn from_loaded(loaded: Loaded) -> Result<Checked, Error> {
-    let mut faults = Faults::of(&loaded.path);
+    let mut faults = Diagnostics::of(&loaded.path);
     match examine(&loaded, &mut faults) {
         (Some(built), motion) => faults.finish(Checked { loaded, built, motion }),
         (None, _) => Err(faults.into_error()),
@@ -78,18 +78,18 @@ pub fn from_loaded(loaded: Loaded) -> Result<Checked, Error> {
 /// Builds arm and motion of a specification and checks all values that need no dynamics.
 ///
 /// Every fault goes to `faults`; `None` stands for an arm or a motion that is at fault, or for no motion.
-pub fn examine(loaded: &Loaded, faults: &mut Faults) -> (Option<Built>, Option<Motion>) {
+pub fn examine(loaded: &Loaded, faults: &mut Diagnostics) -> (Option<Built>, Option<Motion>) {
     let (built, motion) = model(loaded, faults);
     if let Some(control) = &loaded.spec.control {
         let joints = joints(&loaded.spec, built.as_ref().map(|b| &b.arm));
         control::check(control, joints, faults);
-        design::check(control, &loaded.spec, joints, faults);
+        gain_request::check(control, &loaded.spec, joints, faults);
     }
     (built, motion)
 }
 
 /// The same without the numbers of the control law: what the model alone takes.
-pub fn model(loaded: &Loaded, faults: &mut Faults) -> (Option<Built>, Option<Motion>) {
+pub fn model(loaded: &Loaded, faults: &mut Diagnostics) -> (Option<Built>, Option<Motion>) {
     let built = Arm::from_spec(loaded, faults);
     let motion = check(loaded, built.as_ref().map(|b| &b.arm), faults);
     (built, motion)
@@ -106,7 +106,7 @@ fn joints(spec: &Spec, arm: Option<&Arm>) -> Option<usize> {
 ///
 /// Without an arm (because it is at fault) the number of joints is taken from the DH table, and what needs to know
 /// more is passed over.
-fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> {
+fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Diagnostics) -> Option<Motion> {
     let spec = &loaded.spec;
     let joints = joints(spec, arm);
     name::check(&spec.name, faults);
@@ -118,8 +118,8 @@ fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Faults) -> Option<Moti
             faults.push("model.separate.functions", "is 0", "write a whole number of at least 1");
         }
         ModelSpec::Tolerance { torque } if !(*torque > 0.0 && *torque < 1.0) => {
-            let mend = "write a fraction of the peak torque above 0 and below 1, such as 0.01";
-            faults.push("model.tolerance.torque", format!("is {torque}"), mend);
+            let help = "write a fraction of the peak torque above 0 and below 1, such as 0.01";
+            faults.push("model.tolerance.torque", format!("is {torque}"), help);
         }
         ModelSpec::Shared { .. }
         | ModelSpec::Separate { .. }
@@ -132,9 +132,9 @@ fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Faults) -> Option<Moti
     if let TrigSpec::Table { error } = spec.emit.trig
         && !(FINEST..=COARSEST).contains(&error)
     {
-        let mend =
+        let help =
             format!("write a number from {FINEST:e} to {COARSEST}, or \"polynomial\" in place of the table");
-        faults.push("emit.trig.table.error", format!("is {error}"), mend);
+        faults.push("emit.trig.table.error", format!("is {error}"), help);
     }
     going_together(spec, faults);
     if let Some(duration) = spec.simulation.duration.filter(|v| *v <= 0.0) {
@@ -151,7 +151,7 @@ const MODEL: &str = "write `model` as {\"shared\": {\"functions\": N}} or \"exac
 const HARMONIC: &str = "leave out `dictionary`";
 
 /// What goes with certain models alone.
-fn going_together(spec: &Spec, faults: &mut Faults) {
+fn going_together(spec: &Spec, faults: &mut Diagnostics) {
     let chosen = spec.model.tolerance().is_some();
     let products = spec.dictionary != DictionarySpec::Harmonic && !chosen && spec.model != ModelSpec::Exact;
     let apart = matches!(spec.model, ModelSpec::Separate { .. });

@@ -1,6 +1,6 @@
 //! Scalars, lists and tables where a vector or a matrix is meant.
 
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::spec::{MatrixSpec, VectorSpec};
 
 /// One number for each of `n` joints: a scalar stands for all; `None` where a list has another length.
@@ -34,7 +34,7 @@ pub(crate) fn has(count: usize) -> String {
 }
 
 /// A fault where a list has not one entry for each of `joints`; true where it has, or the number is unknown.
-pub(super) fn length(field: &str, found: usize, joints: Option<usize>, faults: &mut Faults) -> bool {
+pub(super) fn length(field: &str, found: usize, joints: Option<usize>, faults: &mut Diagnostics) -> bool {
     match joints {
         Some(n) if found != n => {
             faults.push(field, has(found), format!("write {n}, one for each joint"));
@@ -51,7 +51,7 @@ pub(super) fn entries(
     joints: Option<usize>,
     good: impl Fn(f64) -> bool,
     wanted: &str,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) {
     match spec {
         VectorSpec::Scalar(value) if !good(*value) => {

@@ -2,12 +2,12 @@
 
 use super::Module;
 use crate::bounds::{Met, Torque, percent_up, printed_down, printed_up};
-use crate::design::Guarantee;
+use crate::control::Guarantee;
+use crate::domain::Domain;
 use crate::lagrangian::{Coordinates, Lagrangian};
-use crate::measure::Domain;
 use crate::reduction::Reduced;
-use crate::sines::{Kind, Sines};
 use crate::text::escaped;
+use crate::trig::{Kind, Trig};
 
 /// Comments above a body of `size` bytes. Without time, path or machine, so that the same specification gives the same
 /// bytes.
@@ -33,13 +33,13 @@ pub(super) fn model(module: &Module) -> Vec<String> {
         lines.push(format!(" Exact model of `{}`, {n} joints, in {} form.", module.name, module.form.name()));
     } else {
         let (name, count) = (module.name, kept.len());
-        lines.push(if let Some(dropped) = &module.reduced.dropped {
+        lines.push(if let Some(simplified_arm) = &module.reduced.simplified_arm {
             format!(
                 " Reduced model of `{name}`, {n} joints, in {} form: the exact one of an arm that need not be a real one, whose \
                  base parameters (inertia gathered on as few links as possible) are those of this one fitted anew, without \
                  {} (mx: mass times x of its centre; Σ: ∫ x xᵀ dm).",
                 module.form.name(),
-                dropped.lost()
+                simplified_arm.lost()
             )
         } else if module.reduced.sparse.is_some() {
             format!(
@@ -177,7 +177,7 @@ fn uncertain(module: &Module) -> Vec<String> {
 }
 
 /// How sines are taken, where it is not the default.
-fn taken(sines: &Sines) -> Option<String> {
+fn taken(sines: &Trig) -> Option<String> {
     let way = match sines.kind {
         Kind::Libm => return None,
         Kind::Polynomial => "the runtime's polynomials".to_string(),

@@ -5,8 +5,8 @@ mod controller;
 mod docs;
 mod literal;
 mod regression;
-mod sines;
 mod statements;
+mod trig;
 mod type_name;
 
 pub use type_name::type_name;
@@ -20,15 +20,15 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
 use crate::arm::{Arm, Uncertainty};
-use crate::body::{Form, Regressor};
 use crate::bounds::{Bounds, Met, Torque};
-use crate::design::Design;
+use crate::control::Design;
+use crate::domain::Domain;
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::lagrangian::Lagrangian;
-use crate::measure::Domain;
 use crate::motion::Motion;
 use crate::reduction::Reduced;
+use crate::torque::{Form, Regressor};
 
 /// What a module is made from.
 #[derive(Clone, Copy, Debug)]
@@ -87,7 +87,7 @@ pub fn emit(module: &Module) -> Result<String, Error> {
     let regression = regression::regression(module, &model)?;
     let learnt = regression::constants(module)?;
     let body = statements::body(module.code)?;
-    let table = sines::table(&module.code.sines)?;
+    let table = trig::table(&module.code.sines)?;
     let (unused, plain) = (unused(), plain_numbers());
     let tokens = quote! {
         #(#[doc = #docs])*

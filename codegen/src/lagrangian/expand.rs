@@ -11,7 +11,7 @@ use super::function::{Function, MAX_JOINTS, WHOLE};
 use super::transform::{Axis, grid_point, grid_size, transform};
 use crate::arm::{Arm, Body, JointKind, Uncertainty};
 use crate::dynamics::{Size, Sizes, gravity, mass_matrix, rounding};
-use crate::spread::Spread;
+use crate::numerics::low_discrepancy::LowDiscrepancy;
 
 /// Positions at which the rounding of the samples is looked at.
 const LOOKED_AT: usize = 48;
@@ -148,7 +148,7 @@ fn expanded(arm: &Arm) -> Vec<(Expansion, Accuracy)> {
 /// The most that entries of D and G were found to round by.
 fn noise(arm: &Arm) -> (Vec<Vec<f64>>, Vec<f64>) {
     let n = arm.dof();
-    let spread = Spread::new(n);
+    let spread = LowDiscrepancy::new(n);
     let at = |index: usize| {
         let angle = |u: f64| std::f64::consts::PI * (2.0 * u - 1.0);
         let kinds = arm.moving().iter().map(|joint| joint.kind);
@@ -264,9 +264,9 @@ fn collect(arm: &Arm, axes: &[Axis], samples: &[f64]) -> Expansion {
 fn significant(mut terms: Expansion, rounding: f64, sampled: f64) -> (Expansion, Accuracy) {
     let largest = terms.values().fold(0.0, |most: f64, k| most.max(k.abs()));
     let resolution = rounding.max(LOST * largest);
-    let dropped: f64 = terms.values().map(|k| k.abs()).filter(|k| *k <= resolution).sum();
+    let simplified_arm: f64 = terms.values().map(|k| k.abs()).filter(|k| *k <= resolution).sum();
     terms.retain(|_, k| k.abs() > resolution);
-    (terms, Accuracy { resolution, error: dropped + sampled })
+    (terms, Accuracy { resolution, error: simplified_arm + sampled })
 }
 
 /// h_ijk from d_ij, d_ik and d_jk by exact differentiation along k, j and i.

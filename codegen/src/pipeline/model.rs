@@ -1,16 +1,17 @@
 //! The model that a specification asks for, with its code.
 
 use crate::arm::Arm;
-use crate::body::{self, Form};
-use crate::error::Faults;
+use crate::bounds::TorqueScale;
+use crate::choose::{self, ToleranceRequest};
+use crate::domain::{Domain, Measure};
+use crate::error::Diagnostics;
 use crate::graph::Graph;
 use crate::lagrangian::Lagrangian;
-use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::progress::Progress;
 use crate::reduction::{self, Dictionary, Reduced};
 use crate::spec::{DictionarySpec, ModelSpec, RefitSpec, Spec};
-use crate::tolerance::{self, Scale};
+use crate::torque::{self, Form};
 
 /// A model with its code.
 pub(super) struct Model {
@@ -20,7 +21,7 @@ pub(super) struct Model {
 }
 
 /// What a model is chosen by.
-pub(super) struct Ask<'a> {
+pub(super) struct ModelRequest<'a> {
     pub spec: &'a Spec,
     pub arm: &'a Arm,
     pub lagrangian: &'a Lagrangian,
@@ -31,9 +32,9 @@ pub(super) struct Ask<'a> {
     pub progress: &'a dyn Progress,
 }
 
-impl Ask<'_> {
+impl ModelRequest<'_> {
     /// The model that the specification asks for; `exact` is the form and the code of the exact one.
-    pub fn model(&self, scale: Option<&Scale>, exact: &(Form, Graph)) -> Model {
+    pub fn model(&self, scale: Option<&TorqueScale>, exact: &(Form, Graph)) -> Model {
         let Self { spec, arm, lagrangian, measure, points, .. } = *self;
         let minimax = spec.refit == RefitSpec::Minimax;
         let reduced = match spec.model {
@@ -54,7 +55,7 @@ impl Ask<'_> {
                 if minimax {
                     model = reduction::minimax_sparse(lagrangian, model, functions, points);
                 }
-                let code = body::sparse(lagrangian, &model);
+                let code = torque::sparse(lagrangian, &model);
                 return Model { reduced: model.reduced(lagrangian), form: Form::Sparse, code };
             }
             ModelSpec::Shared { functions } => {
@@ -66,15 +67,15 @@ impl Ask<'_> {
                 if minimax { reduction::minimax_each(lagrangian, reduced, points) } else { reduced }
             }
         };
-        let code = body::expanded(arm, lagrangian, &reduced);
+        let code = torque::expanded(arm, lagrangian, &reduced);
         Model { reduced, form: Form::Expanded, code }
     }
 
     /// The cheapest model within the tolerance, which is about the arm's own parameters.
-    fn cheapest(&self, scale: Option<&Scale>, exact: &(Form, Graph)) -> Model {
+    fn cheapest(&self, scale: Option<&TorqueScale>, exact: &(Form, Graph)) -> Model {
         let fraction = self.spec.model.tolerance().unwrap_or_default();
         let known = self.lagrangian.at_nominal();
-        let ask = tolerance::Ask {
+        let request = ToleranceRequest {
             arm: self.arm,
             lagrangian: &known,
             domain: self.domain,
@@ -84,13 +85,13 @@ impl Ask<'_> {
             exact: (exact.0, &exact.1),
             progress: self.progress,
         };
-        let choice = tolerance::cheapest(&ask, fraction);
+        let choice = choose::cheapest(&request, fraction);
         Model { reduced: choice.reduced, form: choice.form, code: choice.code }
     }
 }
 
 /// Faults where more functions are asked for than there are.
-pub(super) fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Faults) {
+pub(super) fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Diagnostics) {
     let p = dictionary(spec).functions(lagrangian).len();
     let (field, functions) = match spec.model {
         ModelSpec::Shared { functions } => ("model.shared.functions", functions),

@@ -1,13 +1,13 @@
 //! Whether reducing pays.
 
 use super::Generation;
+use crate::choose::why_exact;
 use crate::graph::Operations;
-use crate::tolerance::why_exact;
 
 impl Generation {
     /// Whether reducing pays, in one sentence; of an exact model, why it is one.
     ///
-    /// Costs are compared as the search for a model compares them, by [`Operations::price`].
+    /// Costs are compared as the search for a model compares them, by [`Operations::cost`].
     pub fn verdict(&self) -> String {
         if self.reduced.is_exact() {
             let peak = self.torque.as_ref().map(|torque| torque.peak.as_slice());
@@ -25,7 +25,7 @@ impl Generation {
 
 fn compared(reduced: &Operations, exact: &Operations) -> String {
     let (mine, theirs) = (reduced.arithmetic(), exact.arithmetic());
-    if reduced.price() >= exact.price() {
+    if reduced.cost() >= exact.cost() {
         format!(
             "the exact one is not dearer ({theirs} operations and {} sine-cosine pairs against {mine} and {}), so reducing \
              does not pay here.",

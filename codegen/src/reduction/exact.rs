@@ -11,6 +11,6 @@ pub fn exact(lagrangian: &Lagrangian) -> Reduced {
         simplified: vec![false; lagrangian.coefficients.len()],
         variations: Vec::new(),
         sparse: None,
-        dropped: None,
+        simplified_arm: None,
     }
 }

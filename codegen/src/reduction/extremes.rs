@@ -1,8 +1,8 @@
 //! Points of a domain where residuals are largest.
 
-use crate::measure::{Domain, Measure};
+use crate::domain::{Domain, Measure};
 use crate::motion::Motion;
-use crate::spread::{Spread, corner, in_box};
+use crate::numerics::low_discrepancy::{LowDiscrepancy, corner, in_box};
 
 /// Intervals of the desired motion.
 const INTERVALS: u32 = 200;
@@ -33,7 +33,7 @@ fn tube(motion: &Motion, errors: &[f64]) -> Vec<Vec<f64>> {
     let n = errors.len();
     let corners = 1_usize << n;
     let turns = (corners / CORNERS).max(1);
-    let spread = Spread::new(n);
+    let spread = LowDiscrepancy::new(n);
     let mut points = Vec::new();
     for k in 0..=INTERVALS {
         let q = motion.at(motion.duration() * f64::from(k) / f64::from(INTERVALS)).q;
@@ -52,7 +52,7 @@ fn tube(motion: &Motion, errors: &[f64]) -> Vec<Vec<f64>> {
 }
 
 fn workspace(measure: &Measure, limits: &[[f64; 2]]) -> Vec<Vec<f64>> {
-    let spread = Spread::new(limits.len());
+    let spread = LowDiscrepancy::new(limits.len());
     // The measure has the first points of the sequence.
     let from = measure.points.len();
     let more = (from..from + WORKSPACE_POINTS).map(|index| spread.point(index));
@@ -64,7 +64,7 @@ fn workspace(measure: &Measure, limits: &[[f64; 2]]) -> Vec<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::{INTERVALS, OTHERS, extremes};
-    use crate::measure::{Domain, Measure};
+    use crate::domain::{Domain, Measure};
     use crate::motion::Motion;
 
     #[test]

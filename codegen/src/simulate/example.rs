@@ -4,19 +4,19 @@ use std::path::Path;
 
 use super::{Comparison, Scenario, simulate};
 use crate::arm::{Arm, Body, Joint, JointKind, Limits, Transform, Uncertainty};
-use crate::body::{expanded, recursive};
 use crate::bounds::{Bounds, Effort, certified};
-use crate::design::{Design, Problem, design};
+use crate::control::{Design, DesignProblem, design};
+use crate::domain::{Domain, Measure};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::lagrangian::expand;
-use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::reduction::shared;
 use crate::spec::{
     ControlSpec, CoriolisTermSpec, InitialErrorSpec, LawSpec, MatrixSpec, OnFaultSpec, SimulationSpec,
     VectorSpec,
 };
+use crate::torque::{expanded, recursive};
 
 /// A link: α (quarter turns), a, d, mass, diagonal of the pseudo-inertia, first moment, in its standard frame.
 type Link = (f64, f64, f64, f64, [f64; 3], [f64; 3]);
@@ -88,7 +88,7 @@ impl Example {
             uncertainty: None,
             adaptation: None,
         };
-        let design = design(&Problem {
+        let design = design(&DesignProblem {
             file: Path::new("example.json"),
             control: &control,
             arm: &arm,

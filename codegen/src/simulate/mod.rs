@@ -25,15 +25,15 @@ use self::array::{matrix, vector};
 use self::reference::MotionReference;
 use self::run::Rig;
 use crate::arm::Arm;
-use crate::body::Regressor;
 use crate::bounds::Bounds;
 use crate::check;
-use crate::design::{Adaptation, Design, checked};
+use crate::control::{Adaptation, Design, checked};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::motion::Motion;
 use crate::pipeline::Generation;
 use crate::spec::{CoriolisTermSpec, InitialErrorSpec, LawSpec, OnFaultSpec, SimulationSpec, VectorSpec};
+use crate::torque::Regressor;
 
 /// Runge–Kutta steps a control period, where the specification names none.
 const SUBSTEPS: usize = 10;
@@ -79,8 +79,8 @@ impl<'a> Scenario<'a> {
         let Generation { loaded, arm, given, motion, design, code, exact_code, bounds, regressor, .. } =
             generation;
         let missing = |field: &str, what: &str| {
-            let mend = format!("add `{field}` to the specification");
-            Error::input(&loaded.path, field, format!("is missing, and a simulation needs {what}"), mend)
+            let help = format!("add `{field}` to the specification");
+            Error::input(&loaded.path, field, format!("is missing, and a simulation needs {what}"), help)
         };
         let control = loaded.spec.control.as_ref();
         Ok(Self {
@@ -176,8 +176,8 @@ fn compare<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Compariso
         },
     );
     let refuse = |error: ConfigError| {
-        let mend = "correct the number of the control or simulation section that it comes from";
-        Error::input(file, "control", error.to_string(), mend)
+        let help = "correct the number of the control or simulation section that it comes from";
+        Error::input(file, "control", error.to_string(), help)
     };
     Ok(Comparison {
         exact: exact.map_err(refuse)?,
@@ -195,9 +195,9 @@ fn learning<const N: usize>(
 ) -> Result<AdaptiveLaw<f64, N, MOST_LEARNT>, Error> {
     let count = adaptation.rate.len();
     if count > MOST_LEARNT {
-        let mend = "learn the `uncertain` parameters";
+        let help = "learn the `uncertain` parameters";
         let problem = format!("are {count}; a simulation bears {MOST_LEARNT}");
-        return Err(Error::input(file, "control.adaptation.parameters", problem, mend));
+        return Err(Error::input(file, "control.adaptation.parameters", problem, help));
     }
     let padded = |values: &[f64], rest: f64| std::array::from_fn(|k| values.get(k).copied().unwrap_or(rest));
     let Adaptation { rate, low, high, initial, .. } = adaptation;
@@ -249,7 +249,7 @@ fn initial_error<const N: usize>(name: &str, error: &VectorSpec) -> Result<[f64;
 fn steps(scenario: &Scenario) -> Result<(u32, u32), Error> {
     let Scenario { file, motion, design, simulation, .. } = *scenario;
     let duration = simulation.duration.unwrap_or(motion.duration());
-    let refuse = |field: &str, problem: String, mend: &str| Err(Error::input(file, field, problem, mend));
+    let refuse = |field: &str, problem: String, help: &str| Err(Error::input(file, field, problem, help));
     if !(duration.is_finite() && duration > 0.0) {
         return refuse(
             "simulation.duration",

@@ -1,7 +1,7 @@
 //! The domain of a certificate as a box, and states in it.
 
 use gramforge::Generation;
-use gramforge::measure::Domain;
+use gramforge::domain::Domain;
 
 /// Position errors and time, or positions.
 pub struct Space<'a> {

@@ -2,7 +2,7 @@
 
 use gramforge::Generation;
 use gramforge::arm::Arm;
-use gramforge::design::Design;
+use gramforge::control::Design;
 use gramforge::simulate::ArmModel;
 use gramforge_runtime::law::{Law, Sample, Tracking, lyapunov};
 use gramforge_runtime::reference::Reference;

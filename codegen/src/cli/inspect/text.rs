@@ -22,8 +22,8 @@ pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
     for (number, psi) in (1..).zip(&view.selected) {
         lines.push(format!("  psi_{number} = {psi}"));
     }
-    if let Some(dropped) = &generation.reduced.dropped {
-        lines.push(format!("a simpler arm, without {}", dropped.lost()));
+    if let Some(simplified_arm) = &generation.reduced.simplified_arm {
+        lines.push(format!("a simpler arm, without {}", simplified_arm.lost()));
     }
     let cost = |o: &Operations| format!("{} mul, {} add, {} sin-cos pairs", o.mul, o.add, o.trig_pairs);
     lines.push(format!("emitted ({}): {}", view.form, cost(&view.operations.reduced)));

@@ -5,9 +5,9 @@ use super::{
     RangeView, RatesView,
 };
 use crate::bounds::{Bounds, Effort, Rates, estimate, factor_bounds, worst_ratio};
-use crate::design::Envelope;
+use crate::control::Envelope;
+use crate::domain::Domain;
 use crate::emit::functions;
-use crate::measure::Domain;
 use crate::pipeline::{Generation, dictionary};
 use crate::spec::MatrixSpec;
 
@@ -61,7 +61,10 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
         coefficients: lagrangian.coefficients.len(),
         terms: lagrangian.terms(),
         selected: functions(lagrangian, reduced),
-        dropped: reduced.dropped.as_ref().map_or(&[], |dropped| &dropped.parameters),
+        simplified_arm: reduced
+            .simplified_arm
+            .as_ref()
+            .map_or(&[], |simplified_arm| &simplified_arm.parameters),
         bounds: BoundsView {
             kind: "certified",
             D: &bounds.d,
