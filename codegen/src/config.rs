@@ -148,7 +148,7 @@ impl Config {
         for (spec, loaded) in self.specs.iter().zip(loaded) {
             let generation = loaded.and_then(|loaded| self.generation(loaded));
             let built = generation.and_then(|generation| {
-                let path = out_dir.join(format!("{}.rs", generation.loaded.spec.name));
+                let path = out_dir.join(format!("{}.rs", generation.spec().name));
                 Ok(Output { path, text: generation.module()?, written: false, generation })
             });
             match built {
@@ -183,8 +183,8 @@ impl Config {
 
 fn same_name(spec: &Path, output: &Output, other: &Output) -> Vec<crate::error::Diagnostic> {
     let mut faults = Diagnostics::of(spec);
-    let name = &output.generation.loaded.spec.name;
-    let first = other.generation.loaded.path.display();
+    let name = &output.generation.spec().name;
+    let first = other.generation.path().display();
     faults.push("name", format!("is {name:?}, as in {first}"), "give every specification a name of its own");
     match faults.into_error() {
         Error::Input(list) => list,

@@ -41,6 +41,7 @@ pub mod error;
 pub mod graph;
 pub mod lagrangian;
 pub mod load;
+pub mod model;
 pub mod motion;
 pub mod number;
 pub mod numerics;

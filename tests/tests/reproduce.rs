@@ -39,8 +39,8 @@ fn the_reports_claims_hold_where_they_can() {
     assert_eq!(verdict("the same with the gains as printed"), [false]);
 
     let drawn = figures(&Figures {
-        joints: &cases.nominal.arm.joints,
-        motion: cases.nominal.motion.as_ref().unwrap(),
+        joints: &cases.nominal.arm().joints,
+        motion: cases.nominal.motion().unwrap(),
         exact: &cases.simplified.exact,
         simplified: &cases.simplified.law,
         robust: &cases.loaded[1].robust[1].law,

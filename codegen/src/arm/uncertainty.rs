@@ -5,9 +5,9 @@ use std::path::Path;
 use super::intervals::{Given, about};
 use super::place::Place;
 use super::{Arm, Body};
-use crate::check::has;
 use crate::error::Diagnostics;
 use crate::spec::{ArmSpec, UncertaintySpec};
+use crate::text::has;
 
 /// Most uncertain numbers of inertia: their box has 2^10 vertices.
 pub const MOST_PARAMETERS: usize = 10;

@@ -51,7 +51,6 @@ use rayon::prelude::*;
 use crate::domain::Domain;
 use crate::dynamics::{Size, Sizes};
 use crate::lagrangian::{Coefficient, Combination, Entry, Lagrangian};
-use crate::motion::Motion;
 use crate::progress::{Progress, Silent, Stage};
 use crate::reduction::{Reduced, plus};
 use polynomial::Polynomial;
@@ -137,10 +136,9 @@ pub fn certified(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     domain: &Domain,
-    motion: Option<&Motion>,
     effort: &Effort,
 ) -> Vec<Certificate> {
-    certified_beside(lagrangian, reduced, domain, motion, effort, |_| None)
+    certified_beside(lagrangian, reduced, domain, effort, |_| None)
 }
 
 /// As [`certified`], telling `progress` of every coefficient done.
@@ -148,11 +146,10 @@ pub fn certified_telling(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     domain: &Domain,
-    motion: Option<&Motion>,
     effort: &Effort,
     progress: &dyn Progress,
 ) -> Vec<Certificate> {
-    certify(lagrangian, reduced, domain, motion, effort, |_| None, progress)
+    certify(lagrangian, reduced, domain, effort, |_| None, progress)
 }
 
 /// As [`certified`], where some coefficients' certificates are known already.
@@ -160,24 +157,22 @@ pub fn certified_beside(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     domain: &Domain,
-    motion: Option<&Motion>,
     effort: &Effort,
     known: impl Fn(usize) -> Option<Certificate> + Sync,
 ) -> Vec<Certificate> {
-    certify(lagrangian, reduced, domain, motion, effort, known, &Silent)
+    certify(lagrangian, reduced, domain, effort, known, &Silent)
 }
 
 fn certify(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     domain: &Domain,
-    motion: Option<&Motion>,
     effort: &Effort,
     known: impl Fn(usize) -> Option<Certificate> + Sync,
     progress: &dyn Progress,
 ) -> Vec<Certificate> {
-    let position_bound = position_bound(domain, motion);
-    let residuals = residuals(lagrangian, reduced, domain, motion);
+    let position_bound = position_bound(domain);
+    let residuals = residuals(lagrangian, reduced, domain);
     let simplified = residuals.iter().filter(|residuals| !residuals.is_empty()).count();
     let stage = Stage::new(progress, "certification of coefficients", simplified);
     residuals
@@ -192,10 +187,10 @@ fn certify(
                 return certificate;
             }
             let size = size(&lagrangian.coefficients[m]);
-            let proof = branch::maximum(&residuals, domain, motion, effort, FLOOR * size);
+            let proof = branch::maximum(&residuals, domain, effort, FLOOR * size);
             let rounding = rounding::published(lagrangian, m, reduced, &position_bound);
             let bound = (proof.upper + rounding).next_up();
-            let region = Region::new(domain, motion, &residuals[proof.residual].polynomial.joints);
+            let region = Region::new(domain, &residuals[proof.residual].polynomial.joints);
             let (time, witness) = region.position(lagrangian.dof, &proof.found.x);
             let parameters = vertex(&active(lagrangian, reduced, m), lagrangian, proof.residual);
             let (found, boxes) = (proof.found.height, proof.boxes);
@@ -206,19 +201,14 @@ fn certify(
 
 /// What is left out of each coefficient, in order, at every vertex of the box of the uncertain parameters on which that
 /// depends; nothing for coefficients that are exact.
-fn residuals(
-    lagrangian: &Lagrangian,
-    reduced: &Reduced,
-    domain: &Domain,
-    motion: Option<&Motion>,
-) -> Vec<Vec<Residual>> {
-    let position_bound = position_bound(domain, motion);
+fn residuals(lagrangian: &Lagrangian, reduced: &Reduced, domain: &Domain) -> Vec<Vec<Residual>> {
+    let position_bound = position_bound(domain);
     (0..lagrangian.coefficients.len())
         .into_par_iter()
         .map(|m| {
             let prepare = |terms: Combination| {
                 let polynomial = Polynomial::new(terms.iter().map(|&(l, k)| (&lagrangian.functions[l], k)));
-                Residual::new(polynomial, domain, motion, &position_bound)
+                Residual::new(polynomial, domain, &position_bound)
             };
             at_vertices(lagrangian, reduced, m).into_iter().map(prepare).collect()
         })

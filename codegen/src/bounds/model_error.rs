@@ -8,7 +8,6 @@ use crate::arm::{Arm, Uncertainty};
 use crate::domain::Domain;
 use crate::lagrangian::Lagrangian;
 use crate::load::Loaded;
-use crate::motion::Motion;
 use crate::number::percent;
 use crate::progress::Progress;
 use crate::reduction::Reduced;
@@ -28,7 +27,6 @@ pub(crate) struct ModelError<'a> {
     pub lagrangian: &'a Lagrangian,
     pub reduced: &'a Reduced,
     pub domain: &'a Domain,
-    pub motion: Option<&'a Motion>,
     pub form: Form,
     pub sines: &'a Trig,
     /// What rounding the arm's rotations has changed.
@@ -38,7 +36,7 @@ pub(crate) struct ModelError<'a> {
 impl ModelError<'_> {
     /// A certificate for each coefficient, and the bounds that follow.
     pub fn bounds(&self, effort: &Effort, progress: &dyn Progress) -> (Vec<Certificate>, Bounds) {
-        let Self { lagrangian, reduced, domain, motion, sines, .. } = *self;
+        let Self { lagrangian, reduced, domain, sines, .. } = *self;
         let Spec { model, control, .. } = &self.loaded.spec;
         // A switching gain is made of the bounds themselves.
         let switches = control.as_ref().is_some_and(|control| control.law.is_robust());
@@ -48,11 +46,11 @@ impl ModelError<'_> {
             }
             _ => *effort,
         };
-        let certificates = certified_telling(lagrangian, reduced, domain, motion, &effort, progress);
+        let certificates = certified_telling(lagrangian, reduced, domain, &effort, progress);
         let (mut certificates, bounds) = if self.form == Form::Recursive && !sines.rounds() {
             self.recursive(certificates)
         } else {
-            let certificates = with_sines(certificates, lagrangian, reduced, domain, motion, sines);
+            let certificates = with_sines(certificates, lagrangian, reduced, domain, sines);
             let bounds = Bounds::of(lagrangian, &certificates);
             (certificates, bounds)
         };
@@ -66,12 +64,12 @@ impl ModelError<'_> {
     /// Those of the plain recursion with sines off by more than rounding: what they do to it, and what uncertain
     /// parameters do, which is what the `certificates` given say.
     fn recursive(&self, certificates: Vec<Certificate>) -> (Vec<Certificate>, Bounds) {
-        let Self { lagrangian, reduced, domain, motion, sines, .. } = *self;
+        let Self { lagrangian, reduced, domain, sines, .. } = *self;
         // Only what a law learns is in expanded form.
         let learnt =
             Reduced { combinations: vec![Vec::new(); reduced.combinations.len()], ..reduced.clone() };
-        let certificates = with_sines(certificates, lagrangian, &learnt, domain, motion, sines);
-        let own = recursion(self.arm, &position_bound(domain, motion), sines.error);
+        let certificates = with_sines(certificates, lagrangian, &learnt, domain, sines);
+        let own = recursion(self.arm, &position_bound(domain), sines.error);
         let bounds = Bounds::of(lagrangian, &certificates).plus(&own);
         let add = |(mut certificate, more): (Certificate, Certificate)| {
             certificate.bound = (certificate.bound + more.bound).next_up();
@@ -104,11 +102,11 @@ impl ModelError<'_> {
         rates: &Rates,
         proved: Option<Vec<f64>>,
     ) -> Vec<f64> {
-        let Self { lagrangian, reduced, domain, motion, .. } = *self;
+        let Self { lagrangian, reduced, domain, .. } = *self;
         let own: Vec<f64> = if self.form == Form::Recursive && reduced.is_exact() {
             bounds.torque(rates)
         } else {
-            let mut error = torque_error(lagrangian, reduced, domain, motion, certificates, rates);
+            let mut error = torque_error(lagrangian, reduced, domain, certificates, rates);
             for (i, (error, limit)) in error.iter_mut().zip(proved.into_iter().flatten()).enumerate() {
                 let multipliers = rates.multipliers(lagrangian, i);
                 let sines: f64 = certificates.iter().zip(&multipliers).map(|(c, u)| c.sines * u).sum();
@@ -123,8 +121,8 @@ impl ModelError<'_> {
 
     /// Rounding in f64 of what is not simplified, by joint, N·m or N; that of the rest is in its certificates.
     fn rounding(&self, rates: &Rates) -> Vec<f64> {
-        let Self { lagrangian, reduced, domain, motion, .. } = *self;
-        let position_bound = position_bound(domain, motion);
+        let Self { lagrangian, reduced, domain, .. } = *self;
+        let position_bound = position_bound(domain);
         let n = lagrangian.dof;
         let recursion = match self.form {
             Form::Recursive => recursion_rounding(self.arm, &position_bound).torque(rates),

@@ -5,7 +5,6 @@ use super::polynomial::{Jet, Polynomial, Scratch};
 use super::region::{Cell, Frame, Region};
 use super::tensors::Tensors;
 use crate::domain::Domain;
-use crate::motion::Motion;
 
 /// A polynomial with all that its enclosures need.
 #[derive(Clone, Debug)]
@@ -20,15 +19,10 @@ pub struct Residual {
 
 impl Residual {
     /// Prepares `polynomial` for `domain`, in which |q_j| ≤ `position_bound`.
-    pub fn new(
-        polynomial: Polynomial,
-        domain: &Domain,
-        motion: Option<&Motion>,
-        position_bound: &[f64],
-    ) -> Self {
+    pub fn new(polynomial: Polynomial, domain: &Domain, position_bound: &[f64]) -> Self {
         let position_bound: Vec<f64> = polynomial.joints.iter().map(|&j| position_bound[j]).collect();
         let tensors = Tensors::new(polynomial.terms(), |slot| polynomial.prismatic[slot], &position_bound);
-        let region = Region::new(domain, motion, &polynomial.joints);
+        let region = Region::new(domain, &polynomial.joints);
         let widest = region.frame(&region.root).total;
         let slack = vec![0.0; position_bound.len()];
         let envelope = Envelope::new(tensors, &widest, &position_bound, 0.0, slack);

@@ -50,11 +50,11 @@ pub fn published(lagrangian: &Lagrangian, m: usize, reduced: &Reduced, position_
     let exact = |terms: &Combination| gamma(1024.0) * sum(terms);
     let coefficient = &lagrangian.coefficients[m];
     // Products take their parameters as they are, and these may cancel where the combination's do not.
-    let products = reduced.sparse.as_ref().map_or(0.0, |sparse| {
+    let products = reduced.sparse().map_or(0.0, |sparse| {
         let (sum, count) = sparse.magnitude(m);
         gamma(256.0 + count as f64) * sum * largest
     });
-    let recursion = reduced.simplified_arm.as_ref().map_or(0.0, |simplified_arm| simplified_arm.rounding[m]);
+    let recursion = reduced.simplified_arm().map_or(0.0, |simplified_arm| simplified_arm.rounding[m]);
     let own = evaluation(kept)
         + products
         + recursion

@@ -65,11 +65,10 @@ pub fn torque_error(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     domain: &Domain,
-    motion: Option<&Motion>,
     certificates: &[Certificate],
     rates: &Rates,
 ) -> Vec<f64> {
-    let sums = Sums::new(lagrangian, reduced, domain, motion);
+    let sums = Sums::new(lagrangian, reduced, domain);
     let joints = 0..lagrangian.dof;
     joints.into_par_iter().map(|i| sums.bound(i, rates, certificates, None)).collect()
 }
@@ -92,12 +91,11 @@ pub fn torque_exceeds(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     domain: &Domain,
-    motion: Option<&Motion>,
     certificates: &[Certificate],
     rates: &Rates,
     limits: &[f64],
 ) -> Option<usize> {
-    let sums = Sums::new(lagrangian, reduced, domain, motion);
+    let sums = Sums::new(lagrangian, reduced, domain);
     let within = |i: &usize| sums.bound(*i, rates, certificates, Some(limits[*i])) <= limits[*i];
     (0..lagrangian.dof).into_par_iter().find_first(|i| !within(i))
 }
@@ -107,28 +105,15 @@ struct Sums<'a> {
     lagrangian: &'a Lagrangian,
     reduced: &'a Reduced,
     domain: &'a Domain,
-    motion: Option<&'a Motion>,
     /// At the vertices of the uncertain parameters' box.
     residuals: Vec<Vec<Residual>>,
     position_bound: Vec<f64>,
 }
 
 impl<'a> Sums<'a> {
-    fn new(
-        lagrangian: &'a Lagrangian,
-        reduced: &'a Reduced,
-        domain: &'a Domain,
-        motion: Option<&'a Motion>,
-    ) -> Self {
-        let residuals = residuals(lagrangian, reduced, domain, motion);
-        Self {
-            lagrangian,
-            reduced,
-            domain,
-            motion,
-            residuals,
-            position_bound: position_bound(domain, motion),
-        }
+    fn new(lagrangian: &'a Lagrangian, reduced: &'a Reduced, domain: &'a Domain) -> Self {
+        let residuals = residuals(lagrangian, reduced, domain);
+        Self { lagrangian, reduced, domain, residuals, position_bound: position_bound(domain) }
     }
 
     /// The bound for joint `i`.
@@ -170,9 +155,8 @@ impl<'a> Sums<'a> {
         let range = match self.domain {
             Domain::Workspace(limits) => lattice::range(&parts, limits, &stop),
             _ => {
-                let region = Region::new(self.domain, self.motion, &joints);
-                Weighted::new(parts, &terms, self.domain, self.motion, &self.position_bound)
-                    .range(&region, &stop)
+                let region = Region::new(self.domain, &joints);
+                Weighted::new(parts, &terms, self.domain, &self.position_bound).range(&region, &stop)
             }
         };
         let bound = ((range.upper + extra).min(separate) * slack).next_up();

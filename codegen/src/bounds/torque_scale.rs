@@ -4,7 +4,6 @@ use super::{Bounds, Rates, largest_growth, published, recursion_rounding, worksp
 use crate::arm::Arm;
 use crate::domain::Domain;
 use crate::lagrangian::Lagrangian;
-use crate::motion::Motion;
 use crate::reduction;
 use crate::trig::Trig;
 
@@ -30,15 +29,16 @@ const SPARE: f64 = 1e-9;
 
 impl TorqueScale {
     /// `None` over a workspace where a joint lacks a limit.
-    pub fn new(arm: &Arm, domain: &Domain, motion: Option<&Motion>) -> Option<Self> {
-        let (rates, peak) = match (&domain.within_a_turn(arm, SCATTERED), motion) {
-            (Domain::Workspace(limits), _) => {
+    pub fn new(arm: &Arm, domain: &Domain) -> Option<Self> {
+        let (rates, peak) = match &domain.within_a_turn(arm, SCATTERED) {
+            Domain::Workspace(limits) => {
                 let rates = Rates::limits(arm)?;
                 let peak = workspace_peak_torque(arm, limits, &rates);
                 (rates, peak)
             }
-            (_, Some(motion)) => (Rates::of(motion), crate::bounds::peak_torque(arm, motion)),
-            (_, None) => return None,
+            Domain::Path(motion) | Domain::Tube(motion, _) => {
+                (Rates::of(motion), crate::bounds::peak_torque(arm, motion))
+            }
         };
         Some(Self { rates, reserve: vec![0.0; peak.len()], peak })
     }

@@ -17,7 +17,6 @@ use super::region::position_bound;
 use super::rounding::{gamma, monomial, published};
 use crate::domain::Domain;
 use crate::lagrangian::{Combination, Lagrangian};
-use crate::motion::Motion;
 use crate::reduction::{Reduced, Sparse};
 use crate::trig::Trig;
 
@@ -30,17 +29,16 @@ pub fn with_sines(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     domain: &Domain,
-    motion: Option<&Motion>,
     sines: &Trig,
 ) -> Vec<Certificate> {
-    let position_bound = position_bound(domain, motion);
+    let position_bound = position_bound(domain);
     for (m, (certificate, terms)) in certificates.iter_mut().zip(&reduced.combinations).enumerate() {
         let grown = |terms| grown(lagrangian, terms, &position_bound, sines.beyond_ulp());
         let learnt = reduced.variations.get(m).map_or(0.0, |variations| {
             let widest = lagrangian.ranges.iter().map(|[low, high]| high.max(-low));
             variations.iter().zip(widest).map(|(terms, u)| u * grown(terms)).sum()
         });
-        let own = match &reduced.sparse {
+        let own = match reduced.sparse() {
             Some(sparse) => products_grown(lagrangian, sparse, m, &position_bound, sines.beyond_ulp()),
             None => grown(terms),
         };

@@ -15,7 +15,6 @@ use super::residual::Residual;
 use super::sum::{Part, Range, Stop};
 use crate::domain::Domain;
 use crate::lagrangian::{Function, MAX_JOINTS};
-use crate::motion::Motion;
 
 /// A sign that may change costs twice what lies beyond it; above this fraction of the residual's own bound that
 /// bound serves better.
@@ -35,7 +34,6 @@ impl<'a> Weighted<'a> {
         parts: Vec<Part<'a>>,
         terms: &[Vec<(&Function, f64)>],
         domain: &Domain,
-        motion: Option<&Motion>,
         position_bound: &[f64],
     ) -> Self {
         let mut sizes: BTreeMap<Function, f64> = BTreeMap::new();
@@ -52,7 +50,7 @@ impl<'a> Weighted<'a> {
         }
         let whole = Polynomial::new(sizes.iter().map(|(psi, &k)| (psi, k)));
         let ceiling = parts.iter().map(|part| part.cap * part.multiplier).sum();
-        Self { parts, whole: Residual::new(whole, domain, motion, position_bound), ceiling }
+        Self { parts, whole: Residual::new(whole, domain, position_bound), ceiling }
     }
 
     /// Bounds the sum over `region`, which sees all joints, by best-first branch and bound.

@@ -2,9 +2,10 @@
 
 use nalgebra::DMatrix;
 
-use super::shape::{entries, has, matrix};
+use super::shape::entries;
 use crate::error::Diagnostics;
 use crate::spec::{ControlSpec, CoriolisTermSpec, LawSpec, MatrixSpec};
+use crate::text::has;
 
 /// Rounding that passes for symmetry or for zero, relative to the largest entry.
 const SLACK: f64 = 1e-9;
@@ -110,7 +111,7 @@ fn square(
     faults: &mut Diagnostics,
 ) -> Option<DMatrix<f64>> {
     let n = joints?;
-    let Some(rows) = matrix(spec, n) else {
+    let Some(rows) = spec.by_rows(n) else {
         let found = match spec {
             MatrixSpec::Full(rows) => {
                 let widths: Vec<usize> = rows.iter().map(Vec::len).collect();

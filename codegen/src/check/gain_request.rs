@@ -1,6 +1,6 @@
 //! What a specification asks of the gains instead of giving them.
 
-use super::shape::{entries, vector};
+use super::shape::entries;
 use crate::error::Diagnostics;
 use crate::spec::{ControlSpec, MeasureSpec, Spec, VectorSpec};
 
@@ -52,10 +52,10 @@ pub(super) fn check(control: &ControlSpec, spec: &Spec, joints: Option<usize>, f
     entries("control.design.tube", tube, joints, |v| v >= LEAST, "a number of at least 1e-6", faults);
     let widest = match &spec.measure {
         Some(MeasureSpec::Tube { position_error }) => position_error,
-        None if spec.motion.is_some() => &VectorSpec::Scalar(crate::pipeline::DEFAULT_TUBE),
+        None if spec.motion.is_some() => &VectorSpec::Scalar(crate::domain::DEFAULT_TUBE),
         _ => return,
     };
-    let Some((wanted, widest)) = joints.and_then(|n| Some((vector(tube, n)?, vector(widest, n)?))) else {
+    let Some((wanted, widest)) = joints.and_then(|n| Some((tube.by_joint(n)?, widest.by_joint(n)?))) else {
         return;
     };
     let beyond = wanted.iter().zip(&widest).enumerate().filter(|(_, (wanted, widest))| wanted > widest);

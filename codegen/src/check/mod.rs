@@ -1,13 +1,16 @@
 //! Whether the numbers of a specification make sense together with its arm.
 
+mod checked;
 mod control;
+mod domain;
 mod gain_request;
-mod measure;
 mod motion;
 mod name;
 mod shape;
+mod tuning;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::arm::{Arm, Built, MOST_JOINTS};
 use crate::error::{Diagnostic, Diagnostics, Error};
@@ -16,27 +19,25 @@ use crate::motion::Motion;
 use crate::spec::{DictionarySpec, LawSpec, ModelSpec, Spec, TrigSpec};
 use crate::trig::{COARSEST, FINEST};
 
+pub use checked::{Checked, Control, GainRequest, GainSource, InitialError};
 pub(crate) use name::is_module_name;
-pub(crate) use shape::has;
-pub use shape::{matrix, vector};
+pub use tuning::Tuning;
 
-/// A specification that passed every check that needs no dynamics.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Checked {
-    /// The specification and its files.
-    pub loaded: Loaded,
-    /// Its arm and the warnings about it.
-    pub built: Built,
-    /// Its motion.
-    pub motion: Option<Motion>,
+/// How much of a specification is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// All of it.
+    Whole,
+    /// All but the controller.
+    Model,
 }
 
 /// Reads and checks the specification at `path`.
 ///
 /// # Errors
-/// Those of [`read`]; else [`Error::Input`] with every fault that [`examine`] finds.
+/// Those of [`read`] and [`checked`].
 pub fn prepare(path: &Path) -> Result<Checked, Error> {
-    from_loaded(read(path)?)
+    checked(read(path)?, Extent::Whole)
 }
 
 /// Reads the specification at `path`; where its shape is at fault, the faults of all values that can be read are told with
@@ -51,7 +52,7 @@ pub fn read(path: &Path) -> Result<Loaded, Error> {
         return Ok(loaded);
     }
     let mut values = Diagnostics::of(&loaded.path);
-    examine(&loaded, &mut values);
+    examine(&loaded, Extent::Whole, &mut values);
     // Faults of what stands in for a section, or of its absence, are none of the user's.
     let gone = |section: &str| lost.contains(section);
     let together = ["dictionary", "emit.trig", "control.law"];
@@ -63,35 +64,37 @@ pub fn read(path: &Path) -> Result<Loaded, Error> {
     Err(faults.into_error())
 }
 
-/// The same from a specification that is read already.
+/// Checks a specification that is read already.
 ///
 /// # Errors
-/// [`Error::Input`] with every fault that [`examine`] finds.
-pub fn from_loaded(loaded: Loaded) -> Result<Checked, Error> {
+/// [`Error::Input`] with every value of the specification and its files that cannot be.
+pub fn checked(loaded: Loaded, extent: Extent) -> Result<Checked, Error> {
     let mut faults = Diagnostics::of(&loaded.path);
-    match examine(&loaded, &mut faults) {
-        (Some(built), motion) => faults.finish(Checked { loaded, built, motion }),
-        (None, _) => Err(faults.into_error()),
-    }
+    let (built, motion) = examine(&loaded, extent, &mut faults);
+    faults.finish(())?;
+    let defect = |what: &str| Error::Internal(format!("{what} was lost in its check"));
+    let built = built.ok_or_else(|| defect("the arm"))?;
+    let spec = &loaded.spec;
+    let control = spec.control.as_ref().filter(|_| extent == Extent::Whole);
+    let dense = |control| Control::new(control, built.arm.dof()).ok_or_else(|| defect("`control`"));
+    let control = control.map(dense).transpose()?;
+    let motion = motion.map(Arc::new);
+    let domain = checked::domain(spec, &built.arm, motion.as_ref()).ok_or_else(|| defect("`measure`"))?;
+    Ok(Checked { loaded, built, motion, domain, control })
 }
 
 /// Builds arm and motion of a specification and checks all values that need no dynamics.
 ///
 /// Every fault goes to `faults`; `None` stands for an arm or a motion that is at fault, or for no motion.
-pub fn examine(loaded: &Loaded, faults: &mut Diagnostics) -> (Option<Built>, Option<Motion>) {
-    let (built, motion) = model(loaded, faults);
-    if let Some(control) = &loaded.spec.control {
-        let joints = joints(&loaded.spec, built.as_ref().map(|b| &b.arm));
+fn examine(loaded: &Loaded, extent: Extent, faults: &mut Diagnostics) -> (Option<Built>, Option<Motion>) {
+    let built = Arm::from_spec(loaded, faults);
+    let arm = built.as_ref().map(|b| &b.arm);
+    let motion = check(loaded, arm, faults);
+    if let Some(control) = loaded.spec.control.as_ref().filter(|_| extent == Extent::Whole) {
+        let joints = joints(&loaded.spec, arm);
         control::check(control, joints, faults);
         gain_request::check(control, &loaded.spec, joints, faults);
     }
-    (built, motion)
-}
-
-/// The same without the numbers of the control law: what the model alone takes.
-pub fn model(loaded: &Loaded, faults: &mut Diagnostics) -> (Option<Built>, Option<Motion>) {
-    let built = Arm::from_spec(loaded, faults);
-    let motion = check(loaded, built.as_ref().map(|b| &b.arm), faults);
     (built, motion)
 }
 
@@ -128,7 +131,7 @@ fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Diagnostics) -> Option
         | ModelSpec::Exact => {}
     }
     let motion = spec.motion.as_ref().and_then(|motion| motion::check(motion, loaded, arm, joints, faults));
-    measure::check(spec, arm, joints, faults);
+    domain::check(spec, arm, joints, faults);
     if let TrigSpec::Table { error } = spec.emit.trig
         && !(FINEST..=COARSEST).contains(&error)
     {

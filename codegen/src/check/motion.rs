@@ -1,11 +1,12 @@
 //! Motions: as many numbers as joints, times that run forwards, positions within limits.
 
-use super::shape::{has, length};
+use super::shape::length;
 use crate::arm::Arm;
 use crate::error::Diagnostics;
 use crate::load::Loaded;
 use crate::motion::{Motion, check_limits};
 use crate::spec::MotionSpec;
+use crate::text::has;
 
 /// Most knots of a motion and most sinusoids of a joint: each stands in the module.
 const MOST_KNOTS: usize = 20_000;

@@ -14,9 +14,9 @@ use crate::bounds::{SCATTERED, TorqueScale, position_bound};
 use crate::domain::{Domain, Measure};
 use crate::graph::Graph;
 use crate::lagrangian::{Absolute, Coordinates, Lagrangian};
-use crate::motion::Motion;
+use crate::model::Model;
 use crate::progress::{Progress, Stage};
-use crate::reduction::{self, Reduced, extremes};
+use crate::reduction::{self, extremes};
 use crate::torque::{self, Form};
 use points::{points, seen};
 use proofs::Proofs;
@@ -45,8 +45,6 @@ pub struct ToleranceRequest<'a> {
     pub lagrangian: &'a Lagrangian,
     /// Where the model must hold.
     pub domain: &'a Domain,
-    /// The desired motion.
-    pub motion: Option<&'a Motion>,
     /// Points of the domain.
     pub measure: &'a Measure,
     /// The torques that errors are compared with; `None` where they are unknown.
@@ -62,26 +60,9 @@ impl ToleranceRequest<'_> {
         self.lagrangian.terms() > LONG
     }
 
-    fn unreduced(&self) -> Choice {
+    fn unreduced(&self) -> Model {
         let (form, code) = self.exact;
-        Choice { reduced: reduction::exact(self.lagrangian), form, code: code.clone() }
-    }
-}
-
-/// A model and its code.
-#[derive(Clone, Debug)]
-pub struct Choice {
-    /// The model.
-    pub reduced: Reduced,
-    /// How it computes the torque.
-    pub form: Form,
-    /// The torque.
-    pub code: Graph,
-}
-
-impl Choice {
-    fn cost(&self) -> usize {
-        self.code.operations().cost()
+        Model { reduced: reduction::exact(self.lagrangian), form, code: code.clone() }
     }
 }
 
@@ -113,13 +94,13 @@ pub fn why_exact(arm: &Arm, lagrangian: &Lagrangian, peak: Option<&[f64]>, fract
 /// Cheap means few multiplications and additions of the code, with every sine-cosine pair as
 /// [`crate::graph::TRIG_PAIR`]. The families of a larger fraction hold those of a smaller one, certificates do not depend on
 /// it, and the first member in ascending price that is certified is taken, so that a larger fraction never costs more.
-pub fn cheapest(request: &ToleranceRequest, fraction: f64) -> Choice {
+pub fn cheapest(request: &ToleranceRequest, fraction: f64) -> Model {
     let Some(scale) = request.scale.filter(|scale| scale.peak.iter().all(|&peak| peak > 0.0)) else {
         return request.unreduced();
     };
     let cost = request.exact.1.operations().cost();
     let domain = request.domain.within_a_turn(request.arm, SCATTERED);
-    let everywhere = extremes(request.measure, &domain, request.motion);
+    let everywhere = extremes(request.measure, &domain);
     let points = points(&domain, &everywhere);
     let shares = scale.shares(|i| scale.rates.multipliers(request.lagrangian, i));
     let limits = scale.limits(fraction);
@@ -127,7 +108,7 @@ pub fn cheapest(request: &ToleranceRequest, fraction: f64) -> Choice {
         return request.unreduced();
     }
     let mut proofs = Proofs::default();
-    let mut first = |choices: Vec<Choice>| {
+    let mut first = |choices: Vec<Model>| {
         let stage = Stage::new(request.progress, "models within the tolerance", choices.len());
         choices.into_iter().find(|choice| {
             let _part = stage.part();
@@ -145,14 +126,14 @@ pub fn cheapest(request: &ToleranceRequest, fraction: f64) -> Choice {
         Some(best) if best.cost() < least => return best,
         other => other,
     };
-    let most = best.as_ref().map_or(cost, Choice::cost);
+    let most = best.as_ref().map_or(cost, Model::cost);
     let problem = simplified_arm::ArmProblem {
         arm: request.arm,
         lagrangian: request.lagrangian,
         shares: &shares,
         points: &points,
     };
-    let position_bound = position_bound(request.domain, request.motion);
+    let position_bound = position_bound(request.domain);
     let simpler = simplified_arm::family(&problem, fraction, least)
         .into_iter()
         .filter(|member| member.cost() < most && member.error <= fraction)
@@ -162,7 +143,7 @@ pub fn cheapest(request: &ToleranceRequest, fraction: f64) -> Choice {
     // One after the other: an expansion takes long where the model is.
     let simpler = simpler
         .into_iter()
-        .find_map(|member| first(member.choice(request.lagrangian, &position_bound).into_iter().collect()));
+        .find_map(|member| first(member.model(request.lagrangian, &position_bound).into_iter().collect()));
     simpler.or(best).unwrap_or_else(|| request.unreduced())
 }
 
@@ -173,7 +154,7 @@ fn sparse(
     shares: &[Vec<f64>],
     points: &[Vec<f64>],
     fraction: f64,
-) -> Vec<Choice> {
+) -> Vec<Model> {
     let ToleranceRequest { arm, lagrangian, exact, .. } = *request;
     let most = BEYOND * fraction;
     let absolute = Coordinates::of(arm).and_then(|coordinates| Absolute::new(lagrangian, coordinates));
@@ -186,19 +167,19 @@ fn sparse(
         }
     };
     let dear = exact.1.operations().cost();
-    let mut choices: Vec<Choice> = family
+    let mut choices: Vec<Model> = family
         .into_par_iter()
         .filter(|member| member.cost as f64 <= SHARED * dear as f64)
         .map(|member| {
             let reduced = member.model.reduced(lagrangian);
-            let code = match &reduced.sparse {
+            let code = match reduced.sparse() {
                 Some(model) => torque::sparse(lagrangian, model),
                 None => exact.1.clone(),
             };
-            Choice { reduced, form: Form::Sparse, code }
+            Model { reduced, form: Form::Sparse, code }
         })
         .filter(|choice| choice.cost() < dear)
         .collect();
-    choices.sort_by_key(Choice::cost);
+    choices.sort_by_key(Model::cost);
     choices
 }

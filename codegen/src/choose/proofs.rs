@@ -25,14 +25,13 @@ pub(super) struct Proofs {
 impl Proofs {
     /// Whether the torque errors of `reduced` are certified to stay within `limits`, N·m or N.
     pub fn within(&mut self, request: &ToleranceRequest, reduced: &Reduced, limits: &[f64]) -> bool {
-        let ToleranceRequest { lagrangian, motion, .. } = *request;
+        let ToleranceRequest { lagrangian, .. } = *request;
         let domain = &request.domain.within_a_turn(request.arm, 1.0);
         let Some(scale) = request.scale else { return false };
         let certificates = self.of(request, domain, reduced);
         let separate = separate_error(lagrangian, &certificates, &scale.rates);
         let part = separate.iter().zip(limits).map(|(e, limit)| e / limit).fold(0.0, f64::max);
-        let exceeds =
-            || torque_exceeds(lagrangian, reduced, domain, motion, &certificates, &scale.rates, limits);
+        let exceeds = || torque_exceeds(lagrangian, reduced, domain, &certificates, &scale.rates, limits);
         let hopeful = match domain {
             Domain::Workspace(_) => true,
             _ => part <= HOPELESS,
@@ -43,13 +42,12 @@ impl Proofs {
     fn of(&mut self, request: &ToleranceRequest, domain: &Domain, reduced: &Reduced) -> Vec<Certificate> {
         let key = |m: usize| -> Key {
             let terms = reduced.combinations[m].iter().map(|&(l, k)| (l, k.to_bits())).collect();
-            let (size, count) = reduced.sparse.as_ref().map_or((0.0, 0), |sparse| sparse.magnitude(m));
-            let recursion =
-                reduced.simplified_arm.as_ref().map_or(0.0, |simplified_arm| simplified_arm.rounding[m]);
+            let (size, count) = reduced.sparse().map_or((0.0, 0), |sparse| sparse.magnitude(m));
+            let recursion = reduced.simplified_arm().map_or(0.0, |simplified_arm| simplified_arm.rounding[m]);
             (m, terms, [size.to_bits(), recursion.to_bits(), count as u64])
         };
         let known = |m: usize| self.known.get(&key(m)).cloned();
-        let all = certified_beside(request.lagrangian, reduced, domain, request.motion, &EFFORT, known);
+        let all = certified_beside(request.lagrangian, reduced, domain, &EFFORT, known);
         for (m, certificate) in all.iter().enumerate() {
             self.known.insert(key(m), certificate.clone());
         }

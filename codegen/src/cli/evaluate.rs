@@ -68,8 +68,8 @@ impl Evaluation {
 impl Evaluate {
     pub(super) fn run(&self) -> Result<String, Error> {
         let generation = modelled(&self.spec)?;
-        show_warnings(&generation.warnings);
-        let states = read(&self.states, generation.arm.dof())?;
+        show_warnings(generation.warnings());
+        let states = read(&self.states, generation.arm().dof())?;
         let evaluations: Vec<Evaluation> =
             states.iter().map(|state| self.evaluate(&generation, state)).collect();
         let mut faults = Diagnostics::of(&self.states);
@@ -86,10 +86,10 @@ impl Evaluate {
 
     fn evaluate(&self, generation: &Generation, state: &State) -> Evaluation {
         let code = match self.model {
-            Which::Exact => &generation.exact_code,
-            Which::Reduced => &generation.code,
+            Which::Exact => generation.exact_code(),
+            Which::Reduced => generation.code(),
         };
-        evaluation(&generation.arm, code, state, self.friction)
+        evaluation(generation.arm(), code, state, self.friction)
     }
 }
 

@@ -183,7 +183,7 @@ impl Inspect {
         let effort = Effort { seek_tube: true, ..Effort::default() };
         let loaded = read(&self.spec)?;
         let generation = watched(|progress| Generation::with_progress(loaded, &effort, progress))?;
-        show_warnings(&generation.warnings);
+        show_warnings(generation.warnings());
         let size = generation.module()?.len();
         let view = watched(|progress| {
             let _stage = Stage::new(progress, "comparison of bounds", 1);

@@ -1,12 +1,12 @@
 //! What a law that learns adds to the argument of stability, section 3.3 of the report.
 
-use super::{DesignProblem, checked};
+use super::DesignProblem;
 use crate::bounds::Rates;
-use crate::check::{has, vector};
 use crate::error::Error;
 use crate::lagrangian::Lagrangian;
 use crate::reduction::Regression;
 use crate::spec::VectorSpec;
+use crate::text::has;
 
 /// The numbers of equation (49), one for each parameter θ_k.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,8 +40,8 @@ impl Adaptation {
                 "widen an interval of `control.uncertainty`, or take law `report` or `tight`".to_string();
             return refuse("control.law", "is `adaptive`, and no parameter can vary".to_string(), help);
         }
-        let spec = problem.control.adaptation.clone().unwrap_or_default();
-        let Some(p_theta) = vector(&spec.p_theta, count) else {
+        let spec = &problem.control.adaptation;
+        let Some(p_theta) = spec.p_theta.by_joint(count) else {
             let help = format!("write one number, or {count}, one for each parameter");
             let found = match &spec.p_theta {
                 VectorSpec::List(list) => has(list.len()),
@@ -144,5 +144,5 @@ impl<'a> Learning<'a> {
 /// # Errors
 /// [`Error::Internal`] where the law learns without a regression.
 pub(super) fn regression<'a>(problem: &DesignProblem<'a>) -> Result<&'a Regression, Error> {
-    checked("control.adaptation", problem.regression)
+    problem.regression.ok_or_else(|| Error::Internal("a law that learns has no parameters".to_string()))
 }

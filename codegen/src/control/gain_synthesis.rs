@@ -1,13 +1,12 @@
 //! What a specification asks of the gains: gains that achieve it, or what stands in the way.
 
-use super::region::{outside, room, width};
+use super::Stage;
+use super::region::{outside, room};
 use super::search::{GainCandidate, Scene, Target};
-use super::{Stage, Tuning, checked};
-use crate::check::vector;
+use crate::check::{GainRequest, Tuning};
 use crate::error::{Diagnostics, Error};
 use crate::number::short;
 use crate::progress;
-use crate::spec::{DesignSpec, VectorSpec};
 
 /// Periods that are tried, longest first, where none is asked for, s.
 const PERIODS: [f64; 7] = [0.01, 0.005, 0.002, 0.001, 0.0005, 0.0002, 0.0001];
@@ -21,12 +20,11 @@ const STALLED: f64 = 0.97;
 ///
 /// # Errors
 /// [`Error::Input`] with what cannot be met, and by how much.
-pub(super) fn tune(stage: &Stage, request: &DesignSpec) -> Result<Tuning, Error> {
+pub(super) fn tune(stage: &Stage, request: &GainRequest) -> Result<Tuning, Error> {
     let super::DesignProblem { file, arm, domain, motion, progress, .. } = *stage.problem;
     let n = arm.dof();
-    let tube = |tube| checked("control.design.tube", vector(tube, n));
     let own = room(domain, motion, arm);
-    let asked = request.tube.as_ref().map(tube).transpose()?;
+    let asked = &request.tube;
     let room =
         asked.as_ref().map_or(own.clone(), |asked| asked.iter().zip(&own).map(|(a, b)| a.min(*b)).collect());
     let target = Target { time: request.convergence_time, room };
@@ -47,7 +45,7 @@ pub(super) fn tune(stage: &Stage, request: &DesignSpec) -> Result<Tuning, Error>
         faults.push("control.design", format!("cannot be met: {}", hopeless.join("; ")), help);
         return Err(faults.into_error());
     }
-    let start = &stage.initial[0];
+    let start = &stage.problem.control.initial_error.position;
     if let Some(i) = (0..n).find(|&i| start[i] > target.room[i]) {
         faults.push(
             if asked.is_some() { "control.design.tube" } else { "control.initial_error.position" },
@@ -121,8 +119,8 @@ pub(super) fn tune(stage: &Stage, request: &DesignSpec) -> Result<Tuning, Error>
         );
         return Err(faults.into_error());
     };
-    let own_width = width(domain, n);
-    too_narrow(stage, request, &nearest, asked.as_deref(), own_width.as_deref(), &mut faults)?;
+    let own_width = domain.width();
+    too_narrow(stage, &nearest, asked.as_deref(), own_width.as_deref(), &mut faults)?;
     Err(faults.into_error())
 }
 
@@ -134,7 +132,6 @@ fn short_of_torque(candidate: &GainCandidate) -> bool {
 /// The fault of a tube that errors leave under the best gains.
 fn too_narrow(
     stage: &Stage,
-    request: &DesignSpec,
     nearest: &GainCandidate,
     asked: Option<&[f64]>,
     own: Option<&[f64]>,
@@ -152,8 +149,8 @@ fn too_narrow(
         faults.push("control.design", problem, help);
         return Ok(());
     }
-    let shown = |asked: &[f64]| match (&request.tube, asked) {
-        (Some(VectorSpec::Scalar(tube)), _) => tube.to_string(),
+    let shown = |asked: &[f64]| match asked.split_first() {
+        Some((first, rest)) if rest.iter().all(|e| e == first) => first.to_string(),
         _ => format!("{asked:?}"),
     };
     let enough = own.is_none_or(|own| errors.iter().zip(own).all(|(e, w)| e <= w));

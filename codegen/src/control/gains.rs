@@ -1,6 +1,6 @@
 //! The gain matrices of the laws.
 
-use super::tuning::Tuning;
+use crate::check::Tuning;
 use crate::numerics::linalg::{inverse, product};
 
 /// Gain matrices, n×n by rows.

@@ -6,9 +6,10 @@ use super::feedforward::Feedforward;
 use super::form::{Fastest, Form, InertiaBounds, fastest, inertia_bounds, initial_level, total};
 use super::inertia::Inertia;
 use super::limits::Longest;
-use super::region::{cells, outside, position_bound, start, width};
+use super::region::{cells, outside, position_bound, start};
 use super::{DesignProblem, family};
 use crate::bounds::Rates;
+use crate::check::InitialError;
 use crate::error::Error;
 use crate::number;
 use crate::spec::LawSpec;
@@ -70,11 +71,8 @@ pub(super) struct Parts<'a> {
     pub(super) feedforward: Option<&'a Feedforward>,
     /// Coulomb friction that the command compensates.
     pub(super) coulomb: &'a [[f64; 2]],
-    pub(super) tuning: &'a super::Tuning,
-    /// Initial position and velocity error.
-    pub(super) initial: [Vec<f64>; 2],
+    pub(super) tuning: &'a crate::check::Tuning,
     pub(super) adaptation: Option<&'a Adaptation>,
-    pub(super) delta_c1: Option<&'a [Vec<f64>]>,
     /// The bounds on D, where the same gains were judged before.
     pub(super) facts: Option<&'a InertiaBounds>,
     /// Pass over final error, largest initial error and smallest tube, which a comparison of gains does not need.
@@ -86,16 +84,17 @@ impl Parts<'_> {
         let DesignProblem { arm, domain, motion, bounds, control, lagrangian, uncertainty, .. } =
             *self.problem;
         let n = arm.dof();
-        let own = width(domain, n).unwrap_or(vec![0.0; n]);
-        let over = cells(domain, motion, &own);
-        let wide: Vec<f64> = own.iter().zip(&self.initial[0]).map(|(a, b)| a.max(*b).max(1.0)).collect();
-        let position_bound = position_bound(&cells(domain, motion, &wide), n);
+        let own = domain.width().unwrap_or(vec![0.0; n]);
+        let over = cells(domain, &own);
+        let wide: Vec<f64> =
+            own.iter().zip(&control.initial_error.position).map(|(a, b)| a.max(*b).max(1.0)).collect();
+        let position_bound = position_bound(&cells(domain, &wide), n);
         let inertia = Inertia::of_family(arm, uncertainty, lagrangian, &position_bound, self.problem.angles);
         let facts = match self.facts {
             Some(facts) => facts.clone(),
             None => inertia_bounds(&inertia, over.clone(), self.gains, &self.form),
         };
-        let [position, velocity] = &self.initial;
+        let InitialError { position, velocity } = &control.initial_error;
         let level = |position: &[f64]| {
             let cell = start(domain, motion, position);
             initial_level(&inertia, self.gains, cell, position, velocity)
@@ -119,8 +118,7 @@ impl Parts<'_> {
         };
         let delta_c = bounds.coriolis(&envelope.speed);
         let k_star = family::smallest_multiple(&delta_c);
-        let delta_c1 =
-            self.delta_c1.map(<[_]>::to_vec).unwrap_or_else(|| family::multiple_of_identity(k_star, n));
+        let delta_c1 = control.delta_c1.clone().unwrap_or_else(|| family::multiple_of_identity(k_star, n));
 
         let load = closed_loop.load(&envelope.position_error, &envelope.velocity_error, &delta_c);
         let longest = self.longest_period(&inertia, over.clone(), &delta_c1, &closed_loop, &load.gain);
@@ -147,7 +145,7 @@ impl Parts<'_> {
         let wanted = !self.sketch && (self.problem.seek_tube || control.require_guarantee);
         let tube_needed = if !facts.certified || !wanted {
             None
-        } else if leaves.is_empty() || width(domain, n).is_none() {
+        } else if leaves.is_empty() || domain.width().is_none() {
             Some(envelope.position_error.clone())
         } else {
             self.smallest_tube(&inertia, &envelope, position, &position_bound)?
@@ -263,10 +261,10 @@ impl Parts<'_> {
         start: &[f64],
         position_bound: &[f64],
     ) -> Result<Option<Vec<f64>>, Error> {
-        let DesignProblem { domain, motion, .. } = *self.problem;
+        let DesignProblem { domain, .. } = *self.problem;
         let mut tube = envelope.position_error.clone();
         for _ in 0..ROUNDS {
-            let facts = inertia_bounds(inertia, cells(domain, motion, &tube), self.gains, &self.form);
+            let facts = inertia_bounds(inertia, cells(domain, &tube), self.gains, &self.form);
             let Some(next) =
                 self.closed_loop(&facts, position_bound)?.invariant_level(envelope.v_max, start)?
             else {

@@ -48,7 +48,7 @@ impl Parts<'_> {
         let limited = arm.joints.iter().any(|joint| joint.limits.torque.is_some());
         let Some(motion) = motion.filter(|_| limited) else { return (0.0, reasons) };
         let n = arm.dof();
-        let [position, velocity] = &self.initial;
+        let crate::check::InitialError { position, velocity } = &self.problem.control.initial_error;
         let zero = vec![vec![0.0; n]; n];
         let more = if self.has_matrix() { delta_c1 } else { &zero };
         let target = motion.at(0.0);

@@ -16,7 +16,6 @@ mod search;
 mod settling;
 #[cfg(test)]
 mod tests;
-mod tuning;
 mod ultimate_bound;
 mod verified;
 
@@ -29,11 +28,10 @@ pub use form::InertiaBounds;
 pub use gains::Gains;
 pub use guarantee::Guarantee;
 pub use inertia::{Cell, Extremes, Inertia};
-pub use tuning::Tuning;
 
 use crate::arm::{Arm, Uncertainty};
 use crate::bounds::{Bounds, Rates};
-use crate::check::{matrix, vector};
+use crate::check::{Control, GainSource, Tuning};
 use crate::domain::Domain;
 use crate::error::{Diagnostics, Error};
 use crate::lagrangian::Lagrangian;
@@ -41,7 +39,7 @@ use crate::motion::Motion;
 use crate::number::short;
 use crate::progress::{self, Progress};
 use crate::reduction::Regression;
-use crate::spec::{ControlSpec, CoriolisTermSpec, LawSpec, OnFaultSpec};
+use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec};
 use feedforward::Feedforward;
 
 /// Everything a controller needs beside its model.
@@ -92,7 +90,7 @@ pub struct DesignProblem<'a> {
     /// The specification, which faults name.
     pub file: &'a Path,
     /// Its controller.
-    pub control: &'a ControlSpec,
+    pub control: &'a Control,
     /// The arm that the model is made of.
     pub arm: &'a Arm,
     /// The arm as specified, before its rotations were rounded, and its family.
@@ -124,11 +122,10 @@ pub struct DesignProblem<'a> {
 /// [`Error::Internal`] where a matrix that was checked before turns out singular.
 pub fn design(problem: &DesignProblem) -> Result<Design, Error> {
     let DesignProblem { file, control, arm, .. } = *problem;
-    let n = arm.dof();
     let stage = Stage::new(problem)?;
-    let tuning = match &control.design {
-        Some(request) => gain_synthesis::tune(&stage, request)?,
-        None => Tuning::given(control, n)?,
+    let tuning = match &control.gains {
+        GainSource::Requested(request) => gain_synthesis::tune(&stage, request)?,
+        GainSource::Given(tuning) => tuning.clone(),
     };
     let told = progress::Stage::new(problem.progress, "guarantee", 1);
     let (gains, judgement) = stage.judge(&tuning)?;
@@ -166,9 +163,6 @@ struct Stage<'a> {
     adaptation: Option<Adaptation>,
     /// Bound on the Coulomb friction that the command does not cancel, by joint, N·m or N.
     disturbance: Vec<f64>,
-    /// Initial position and velocity error.
-    initial: [Vec<f64>; 2],
-    delta_c1: Option<Vec<Vec<f64>>>,
     /// What the motion itself takes; `None` without one.
     feedforward: Option<Feedforward>,
     /// Coulomb friction that the command compensates, forwards and backwards, by joint.
@@ -178,14 +172,11 @@ struct Stage<'a> {
 impl<'a> Stage<'a> {
     fn new(problem: &'a DesignProblem<'a>) -> Result<Self, Error> {
         let DesignProblem { control, arm, .. } = *problem;
-        let n = arm.dof();
         let disturbance = |joint: &crate::arm::Joint| {
             let [forwards, backwards] = joint.coulomb_friction;
             // Compensated for the wrong direction, it counts in full from one side to the other.
             if control.compensate_coulomb { forwards - backwards } else { forwards.max(-backwards) }
         };
-        let initial = &control.initial_error;
-        let given = |m| checked("control.delta_c1", matrix(m, n));
         let coulomb = |joint: &crate::arm::Joint| {
             if control.compensate_coulomb { joint.coulomb_friction } else { [0.0; 2] }
         };
@@ -197,11 +188,6 @@ impl<'a> Stage<'a> {
             coulomb: arm.joints.iter().map(coulomb).collect(),
             adaptation: Adaptation::new(problem)?,
             disturbance: arm.joints.iter().map(disturbance).collect(),
-            initial: [
-                checked("control.initial_error.position", vector(&initial.position, n))?,
-                checked("control.initial_error.velocity", vector(&initial.velocity, n))?,
-            ],
-            delta_c1: control.delta_c1.as_ref().map(given).transpose()?,
         })
     }
 
@@ -235,8 +221,6 @@ impl<'a> Stage<'a> {
             feedforward: self.feedforward.as_ref(),
             coulomb: &self.coulomb,
             tuning,
-            initial: self.initial.clone(),
-            delta_c1: self.delta_c1.as_deref(),
             adaptation: self.adaptation.as_ref(),
             facts,
             sketch,
@@ -254,7 +238,7 @@ impl Design {
         self.gains.is_finite() && lists.flatten().chain([v_max, level, &self.k_star]).all(|v| v.is_finite())
     }
 
-    fn check(&self, control: &ControlSpec, faults: &mut Diagnostics) {
+    fn check(&self, control: &Control, faults: &mut Diagnostics) {
         let least = least_eigenvalue(&self.delta_c1, &self.delta_c);
         if control.delta_c1.is_some() && !outweighs(least, &self.delta_c) {
             faults.push(
@@ -303,12 +287,4 @@ impl Design {
             );
         }
     }
-}
-
-/// What the specification's check has left in order.
-///
-/// # Errors
-/// [`Error::Internal`] where it has not.
-pub(crate) fn checked<T>(field: &str, value: Option<T>) -> Result<T, Error> {
-    value.ok_or_else(|| Error::Internal(format!("{field} has the wrong size after its check")))
 }

@@ -10,30 +10,25 @@ const PIECES: [f64; 2] = [16.0, 200.0];
 
 /// Boxes that together hold every position of the domain; around a motion with the errors `width` in place of the
 /// domain's own.
-pub(super) fn cells(domain: &Domain, motion: Option<&Motion>, width: &[f64]) -> Vec<Cell> {
-    match (domain, motion) {
-        (Domain::Workspace(limits), _) => vec![box_cell(limits)],
-        (_, Some(motion)) => around(motion, width),
-        (_, None) => Vec::new(),
-    }
-}
-
-/// Half-width of the domain around a motion; `None` for a workspace.
-pub(super) fn width(domain: &Domain, n: usize) -> Option<Vec<f64>> {
+pub(super) fn cells(domain: &Domain, width: &[f64]) -> Vec<Cell> {
     match domain {
-        Domain::Trajectory => Some(vec![0.0; n]),
-        Domain::Tube(errors) => Some(errors.clone()),
-        Domain::Workspace(_) => None,
+        Domain::Workspace(limits) => vec![box_cell(limits)],
+        Domain::Path(motion) | Domain::Tube(motion, _) => around(motion, width),
     }
 }
 
 /// Where the arm may start with the position errors `start`: about q_d(0), anywhere without a motion.
 pub(super) fn start(domain: &Domain, motion: Option<&Motion>, start: &[f64]) -> Cell {
-    match (motion, domain) {
-        (Some(motion), _) => Cell { centre: motion.at(0.0).q, half: start.to_vec() },
-        (None, Domain::Workspace(limits)) => box_cell(limits),
-        (None, _) => Cell { centre: vec![0.0; start.len()], half: start.to_vec() },
+    match (domain, motion) {
+        (Domain::Workspace(limits), None) => box_cell(limits),
+        (Domain::Workspace(_), Some(motion)) => about(motion, start),
+        (Domain::Path(motion) | Domain::Tube(motion, _), _) => about(motion, start),
     }
+}
+
+/// The box of errors `half` about q_d(0).
+fn about(motion: &Motion, half: &[f64]) -> Cell {
+    Cell { centre: motion.at(0.0).q, half: half.to_vec() }
 }
 
 /// Why q_d + E_q with |E_q| ≤ `error` is not inside the domain; nothing where it is.
@@ -42,7 +37,7 @@ pub(super) fn start(domain: &Domain, motion: Option<&Motion>, start: &[f64]) -> 
 /// with limits is inside as long as motion and error together stay between them.
 pub(super) fn outside(domain: &Domain, motion: Option<&Motion>, arm: &Arm, error: &[f64]) -> Vec<String> {
     let exceeds = |value: f64, limit: f64| value > limit * (1.0 + 1e-9);
-    if let Some(width) = width(domain, arm.dof()) {
+    if let Some(width) = domain.width() {
         let of = |i: usize| {
             exceeds(error[i], width[i]).then(|| {
                 format!(
@@ -85,7 +80,7 @@ pub(super) fn room(domain: &Domain, motion: Option<&Motion>, arm: &Arm) -> Vec<f
     let turn: Vec<f64> = (0..arm.dof()).map(|i| 0.5 * arm.period(i)).collect();
     let (limits, motion) = match (domain, motion) {
         (Domain::Workspace(limits), Some(motion)) => (limits, motion),
-        _ => return width(domain, arm.dof()).unwrap_or(turn),
+        _ => return domain.width().unwrap_or(turn),
     };
     let path = around(motion, &vec![0.0; arm.dof()]);
     let of = |i: usize| {

@@ -4,11 +4,12 @@
 //! bears less of it than the base: so joint i gets κ/(D⁻¹)_ii, with its least inertia over the domain. What is sought
 //! are κ and three shares of it; every candidate is judged as given gains are.
 
+use super::Stage;
 use super::form::{BUDGET, TOLERANCE, fastest};
 use super::guarantee::Judgement;
 use super::inertia::Inertia;
-use super::region::{cells, position_bound, width};
-use super::{Stage, Tuning};
+use super::region::{cells, position_bound};
+use crate::check::Tuning;
 use crate::error::Error;
 
 /// Share of the sampled loop's limit that gains aim at, and that they may use: ρ, and ΔC1, are known afterwards.
@@ -84,9 +85,9 @@ pub(super) struct Scene<'a> {
 
 impl<'a> Scene<'a> {
     pub(super) fn new(stage: &'a Stage<'a>, target: &'a Target) -> Self {
-        let super::DesignProblem { arm, lagrangian, domain, motion, uncertainty, .. } = *stage.problem;
+        let super::DesignProblem { arm, lagrangian, domain, uncertainty, .. } = *stage.problem;
         let n = arm.dof();
-        let over = cells(domain, motion, &width(domain, n).unwrap_or(vec![0.0; n]));
+        let over = cells(domain, &domain.width().unwrap_or(vec![0.0; n]));
         let inertia =
             Inertia::of_family(arm, uncertainty, lagrangian, &position_bound(&over, n), stage.problem.angles);
         let extremes = inertia.largest(over.clone(), TOLERANCE, BUDGET / (n * n), |low, high| {

@@ -1,9 +1,9 @@
 //! How long the joints take together: the coupled loop D ṡ = −K s + Pqq q_e, q̇_e = −P12 q_e + s with D held still.
 
-use super::Tuning;
 use super::gains::Gains;
 use super::search::{GainCandidate, Scene, Target};
 use crate::arm::Arm;
+use crate::check::Tuning;
 use crate::dynamics::mass_matrix;
 use crate::error::Error;
 use crate::motion::Motion;
@@ -35,7 +35,13 @@ impl Scene<'_> {
             if !candidate.holds {
                 return Ok(Some(candidate));
             }
-            let taken = settling(arm, motion, &candidate.tuning, &self.stage.initial[0], 4.0 * wanted);
+            let taken = settling(
+                arm,
+                motion,
+                &candidate.tuning,
+                &self.stage.problem.control.initial_error.position,
+                4.0 * wanted,
+            );
             if taken <= MARGIN * wanted {
                 return Ok(Some(candidate));
             }

@@ -28,14 +28,13 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// Points for a domain; trajectory and tube need the motion, the workspace the joints' velocity and
-    /// acceleration limits (unlimited joints count as limited to 1).
-    pub fn new(domain: &Domain, motion: Option<&Motion>, arm: &Arm) -> Self {
-        match (domain, motion) {
-            (Domain::Workspace(limits), _) => Self::workspace(limits, arm),
-            (Domain::Tube(errors), Some(motion)) => Self::tube(motion, errors),
-            (Domain::Trajectory, Some(motion)) => Self::tube(motion, &[]),
-            (_, None) => Self::workspace(&vec![[0.0, 0.0]; arm.dof()], arm),
+    /// Points for a domain; over a workspace the rates are within the joints' limits of velocity and acceleration (a joint
+    /// without limits counts as limited to 1).
+    pub fn new(domain: &Domain, arm: &Arm) -> Self {
+        match domain {
+            Domain::Workspace(limits) => Self::workspace(limits, arm),
+            Domain::Tube(motion, errors) => Self::tube(motion, errors),
+            Domain::Path(motion) => Self::tube(motion, &[]),
         }
     }
 

@@ -4,20 +4,43 @@ mod measure;
 
 pub use measure::Measure;
 
+use std::sync::Arc;
+
 use crate::arm::{Arm, Joint, JointKind};
+use crate::motion::Motion;
 
 /// Which set of positions a model is made for.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Domain {
-    /// The desired trajectory q_d(t).
-    Trajectory,
-    /// All q with |q − q_d(t)| ≤ ε for some t; ε by joint, rad or m.
-    Tube(Vec<f64>),
+    /// The desired trajectory q_d(t) itself.
+    Path(Arc<Motion>),
+    /// All q with |q − q_d(t)| ≤ ε for some t: the motion, and ε by joint, rad or m.
+    Tube(Arc<Motion>, Vec<f64>),
     /// The joint box [low, high], rad or m.
     Workspace(Vec<[f64; 2]>),
 }
 
+/// Half-width of the tube where the specification names no measure, rad or m.
+pub(crate) const DEFAULT_TUBE: f64 = 0.05;
+
 impl Domain {
+    /// The motion that the domain follows; `None` for a workspace.
+    pub fn motion(&self) -> Option<&Motion> {
+        match self {
+            Self::Path(motion) | Self::Tube(motion, _) => Some(motion),
+            Self::Workspace(_) => None,
+        }
+    }
+
+    /// The half-width around the motion by joint, rad or m; `None` for a workspace.
+    pub fn width(&self) -> Option<Vec<f64>> {
+        match self {
+            Self::Path(motion) => Some(vec![0.0; motion.dof()]),
+            Self::Tube(_, errors) => Some(errors.clone()),
+            Self::Workspace(_) => None,
+        }
+    }
+
     /// Positions that stand for all: every function is periodic in a revolute joint's angle, so that of a workspace wider
     /// than `turns` ≥ 1 periods of it one, the nearest to 0, is enough.
     #[must_use]

@@ -264,9 +264,9 @@ fn collect(arm: &Arm, axes: &[Axis], samples: &[f64]) -> Expansion {
 fn significant(mut terms: Expansion, rounding: f64, sampled: f64) -> (Expansion, Accuracy) {
     let largest = terms.values().fold(0.0, |most: f64, k| most.max(k.abs()));
     let resolution = rounding.max(LOST * largest);
-    let simplified_arm: f64 = terms.values().map(|k| k.abs()).filter(|k| *k <= resolution).sum();
+    let dropped: f64 = terms.values().map(|k| k.abs()).filter(|k| *k <= resolution).sum();
     terms.retain(|_, k| k.abs() > resolution);
-    (terms, Accuracy { resolution, error: simplified_arm + sampled })
+    (terms, Accuracy { resolution, error: dropped + sampled })
 }
 
 /// h_ijk from d_ij, d_ik and d_jk by exact differentiation along k, j and i.

@@ -9,17 +9,17 @@ impl Generation {
     ///
     /// Costs are compared as the search for a model compares them, by [`Operations::cost`].
     pub fn verdict(&self) -> String {
-        if self.reduced.is_exact() {
-            let peak = self.torque.as_ref().map(|torque| torque.peak.as_slice());
-            return match self.loaded.spec.model.tolerance() {
-                Some(fraction) => why_exact(&self.arm, &self.lagrangian, peak, fraction),
+        if self.reduced().is_exact() {
+            let peak = self.torque().map(|torque| torque.peak.as_slice());
+            return match self.spec().model.tolerance() {
+                Some(fraction) => why_exact(self.arm(), self.lagrangian(), peak, fraction),
                 None => "this is the exact model.".to_string(),
             };
         }
-        if !self.reduced.simplified.contains(&true) {
+        if !self.reduced().simplified.contains(&true) {
             return "no coefficient has more functions than are kept, so nothing was simplified.".to_string();
         }
-        compared(&self.code.operations(), &self.exact_code.operations())
+        compared(&self.code().operations(), &self.exact_code().operations())
     }
 }
 

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::minimax::{Columns, ROUNDING, combination, largest, residual};
-use super::{GramSchmidt, Reduced, Samples};
+use super::{GramSchmidt, Kind, Reduced, Samples};
 use crate::domain::Measure;
 use crate::lagrangian::{Combination, Lagrangian};
 use crate::numerics::basis::Basis;
@@ -41,8 +41,7 @@ pub fn separate(lagrangian: &Lagrangian, measure: &Measure, functions: usize) ->
         combinations,
         simplified,
         variations: Vec::new(),
-        sparse: None,
-        simplified_arm: None,
+        kind: Kind::Expanded,
     }
 }
 

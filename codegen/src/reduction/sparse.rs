@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::{Reduced, plus};
+use super::{Kind, Reduced, plus};
 use crate::lagrangian::{Absolute, Combination, Function, Lagrangian};
 
 /// A function that a model may keep: one ψ, or a product of two or three of them.
@@ -77,14 +77,7 @@ impl Sparse {
         let mut selected: Vec<usize> = combinations.iter().flatten().map(|&(l, _)| l).collect();
         selected.sort_unstable();
         selected.dedup();
-        Reduced {
-            selected,
-            combinations,
-            simplified,
-            variations: Vec::new(),
-            sparse: Some(self),
-            simplified_arm: None,
-        }
+        Reduced { selected, combinations, simplified, variations: Vec::new(), kind: Kind::Sparse(self) }
     }
 
     /// α̂_m of the model as it is written, and whether it differs from α_m in form.

@@ -26,13 +26,13 @@ use self::reference::MotionReference;
 use self::run::Rig;
 use crate::arm::Arm;
 use crate::bounds::Bounds;
-use crate::check;
-use crate::control::{Adaptation, Design, checked};
+use crate::check::InitialError;
+use crate::control::{Adaptation, Design};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::motion::Motion;
 use crate::pipeline::Generation;
-use crate::spec::{CoriolisTermSpec, InitialErrorSpec, LawSpec, OnFaultSpec, SimulationSpec, VectorSpec};
+use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec, SimulationSpec};
 use crate::torque::Regressor;
 
 /// Runge–Kutta steps a control period, where the specification names none.
@@ -65,7 +65,7 @@ pub struct Scenario<'a> {
     /// The torque as a function of what the law learns.
     pub regressor: Option<&'a Regressor>,
     /// Error at time 0: the arm starts at q_d + position, q̇_d + velocity.
-    pub initial: &'a InitialErrorSpec,
+    pub initial: &'a InitialError,
     /// Duration and substeps.
     pub simulation: &'a SimulationSpec,
 }
@@ -76,25 +76,24 @@ impl<'a> Scenario<'a> {
     /// # Errors
     /// [`Error::Input`] where it has no motion or no controller.
     pub fn of(generation: &'a Generation) -> Result<Self, Error> {
-        let Generation { loaded, arm, given, motion, design, code, exact_code, bounds, regressor, .. } =
-            generation;
+        let file = generation.path();
         let missing = |field: &str, what: &str| {
             let help = format!("add `{field}` to the specification");
-            Error::input(&loaded.path, field, format!("is missing, and a simulation needs {what}"), help)
+            Error::input(file, field, format!("is missing, and a simulation needs {what}"), help)
         };
-        let control = loaded.spec.control.as_ref();
+        let control = generation.control().ok_or_else(|| missing("control", "a law"));
         Ok(Self {
-            file: &loaded.path,
-            arm,
-            plant: given,
-            exact: exact_code,
-            motion: motion.as_ref().ok_or_else(|| missing("motion", "a desired motion"))?,
-            design: design.as_ref().ok_or_else(|| missing("control", "a law"))?,
-            code,
-            bounds,
-            regressor: regressor.as_ref(),
-            initial: &control.ok_or_else(|| missing("control", "a law"))?.initial_error,
-            simulation: &loaded.spec.simulation,
+            file,
+            arm: generation.arm(),
+            plant: generation.given(),
+            exact: generation.exact_code(),
+            motion: generation.motion().ok_or_else(|| missing("motion", "a desired motion"))?,
+            design: generation.design().ok_or_else(|| missing("control", "a law"))?,
+            code: generation.code(),
+            bounds: generation.bounds(),
+            regressor: generation.regressor(),
+            initial: &control?.initial_error,
+            simulation: &generation.spec().simulation,
         })
     }
 }
@@ -219,8 +218,8 @@ fn rig<'a, const N: usize>(scenario: &Scenario<'a>, plant: &'a Arm) -> Result<Ri
         coulomb: vector("the arm", &coulomb)?,
         reference: MotionReference::new(motion)?,
         initial: JointState {
-            q: initial_error("position", &initial.position)?,
-            qd: initial_error("velocity", &initial.velocity)?,
+            q: vector("the initial error", &initial.position)?,
+            qd: vector("the initial error", &initial.velocity)?,
         },
         gains: Gains {
             p12: matrix("P12", &design.gains.p12)?,
@@ -239,10 +238,6 @@ fn rig<'a, const N: usize>(scenario: &Scenario<'a>, plant: &'a Arm) -> Result<Ri
         substeps,
         steps,
     })
-}
-
-fn initial_error<const N: usize>(name: &str, error: &VectorSpec) -> Result<[f64; N], Error> {
-    vector("the initial error", &checked(&format!("control.initial_error.{name}"), check::vector(error, N))?)
 }
 
 /// Control periods of the run, and Runge–Kutta steps in each.

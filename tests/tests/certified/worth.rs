@@ -8,8 +8,8 @@ use gramforge::motion::Motion;
 /// The largest fraction of a joint's peak torque along `motion` that each coefficient's bound can cost, at the motion's
 /// rates in a tube and at the joints' limits in a workspace.
 pub fn worths(generation: &Generation, motion: &Motion) -> Vec<f64> {
-    let arm = &generation.arm;
-    let rates = match &generation.motion {
+    let arm = generation.arm();
+    let rates = match &generation.motion() {
         Some(motion) => Rates::of(motion),
         None => Rates::limits(arm).expect("a workspace has limits on all rates"),
     };
@@ -32,6 +32,6 @@ pub fn worths(generation: &Generation, motion: &Motion) -> Vec<f64> {
         }
         multiplier.iter().zip(&peak).map(|(u, peak)| bound * u / peak).fold(0.0, f64::max)
     };
-    let bounds = generation.certificates.iter().map(|certificate| certificate.bound);
-    generation.lagrangian.coefficients.iter().zip(bounds).map(worth).collect()
+    let bounds = generation.certificates().iter().map(|certificate| certificate.bound);
+    generation.lagrangian().coefficients.iter().zip(bounds).map(worth).collect()
 }

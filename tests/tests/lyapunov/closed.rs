@@ -31,13 +31,13 @@ pub fn report<const N: usize>(design: &Design) -> ReportLaw<f64, N> {
 
 /// An arm of the family, the first ones at its vertices, with its own viscous friction.
 pub fn member(generation: &Generation, index: usize, random: &mut Random) -> (Vec<f64>, Arm) {
-    let family = &generation.uncertainty;
+    let family = generation.uncertainty();
     let share = |random: &mut Random| 0.5 + 0.5 * random.signed();
     let u: Vec<f64> = match family.vertices().nth(index) {
         Some(vertex) => vertex,
         None => family.parameters.iter().map(|p| p.low + share(random) * (p.high - p.low)).collect(),
     };
-    let mut arm = family.at(&generation.arm, &u);
+    let mut arm = family.at(generation.arm(), &u);
     for (joint, width) in arm.joints.iter_mut().zip(&family.viscous) {
         joint.viscous_friction += width * random.signed();
     }

@@ -41,7 +41,7 @@ fn bounded(stop: &Stop) -> Range {
     let domain = Domain::Workspace(LIMITS.to_vec());
     let position_bound: Vec<f64> = LIMITS.iter().map(|[low, high]| low.abs().max(high.abs())).collect();
     let residual = |terms: &Vec<(Function, f64)>| {
-        Residual::new(Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k))), &domain, None, &position_bound)
+        Residual::new(Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k))), &domain, &position_bound)
     };
     let all: Vec<Residual> = sums().iter().map(residual).collect();
     let part = |range: std::ops::Range<usize>, multiplier: f64| Part {

@@ -10,12 +10,12 @@ mod moves;
 mod refit;
 mod table;
 
-use super::Choice;
 use crate::arm::{Arm, Inertial, Quantity};
 use crate::bounds::beside_expansion;
 use crate::graph::Graph;
 use crate::lagrangian::{Lagrangian, expand};
-use crate::reduction::{Expressed, Reduced, SimplifiedArm, expressed};
+use crate::model::Model;
+use crate::reduction::{Expressed, Kind, Reduced, SimplifiedArm, expressed};
 use crate::torque::Form;
 use table::Table;
 
@@ -73,7 +73,7 @@ impl ArmCandidate {
     }
 
     /// The model, where |q_j| ≤ `position_bound`; `None` where it is not one over the functions of `lagrangian`.
-    pub fn choice(self, lagrangian: &Lagrangian, position_bound: &[f64]) -> Option<Choice> {
+    pub fn model(self, lagrangian: &Lagrangian, position_bound: &[f64]) -> Option<Model> {
         let Expressed { combinations, simplified, lacking } = expressed(lagrangian, &expand(&self.arm))?;
         let rounding = beside_expansion(lagrangian, &combinations, &lacking, &self.arm, position_bound);
         let parameters = self.lost.iter().map(|p| p.describe(&self.arm)).collect();
@@ -81,10 +81,9 @@ impl ArmCandidate {
             selected: Vec::new(),
             combinations,
             simplified,
-            sparse: None,
             variations: Vec::new(),
-            simplified_arm: Some(SimplifiedArm { rounding, parameters }),
+            kind: Kind::SimplifiedArm(SimplifiedArm { rounding, parameters }),
         };
-        Some(Choice { reduced, form: Form::Recursive, code: self.code })
+        Some(Model { reduced, form: Form::Recursive, code: self.code })
     }
 }
