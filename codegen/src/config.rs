@@ -38,6 +38,7 @@ pub struct Config {
 }
 
 /// One generated module.
+#[non_exhaustive]
 #[derive(Clone, Debug)]
 pub struct Output {
     /// The file: the output folder, the specification's name, `.rs`.

@@ -9,6 +9,7 @@ use crate::text::escaped;
 pub const MOST_TOLD: usize = 100;
 
 /// One thing wrong with the input. Shown, it takes one line, whatever it holds.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// The file it stands in.
@@ -130,6 +131,7 @@ impl Diagnostics {
 }
 
 /// A generated file that is not what its specification gives.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stale {
     /// The file that differs or is missing.
@@ -139,6 +141,7 @@ pub struct Stale {
 }
 
 /// Why a stage could not deliver.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The input is at fault: exit code 2.

@@ -67,6 +67,7 @@ pub const LONG: usize = 1000;
 pub const DIGITS: usize = 6;
 
 /// How much work a certificate may take.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
     /// Where bound and largest value found differ by less than this fraction, branch and bound stops.
@@ -85,6 +86,26 @@ impl Default for Effort {
     /// What generation spends.
     fn default() -> Self {
         Self { tolerance: 0.01, boxes: 300_000, starts: 12, seek_tube: false }
+    }
+}
+
+impl Effort {
+    /// The same with another number of boxes for each residual.
+    #[must_use]
+    pub fn boxes(self, boxes: usize) -> Self {
+        Self { boxes, ..self }
+    }
+
+    /// The same with another number of starts of the search from below.
+    #[must_use]
+    pub fn starts(self, starts: usize) -> Self {
+        Self { starts, ..self }
+    }
+
+    /// The same, where the smallest sufficient tube is sought or not.
+    #[must_use]
+    pub fn seek_tube(self, seek_tube: bool) -> Self {
+        Self { seek_tube, ..self }
     }
 }
 
