@@ -87,3 +87,8 @@ pub fn difference<'a>(a: impl IntoIterator<Item = &'a f64>, b: impl IntoIterator
         if apart.is_nan() { f64::INFINITY } else { most.max(apart) }
     })
 }
+
+/// The code of README.md, compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

@@ -87,3 +87,12 @@ fn imports_are_read_from_code_alone() {
     let text = "use crate::arm::Arm;\n// crate::cli\nuse crate::{bounds::Bounds, check};\nlet x = crate::emit::emit();\n#[cfg(test)]\nmod tests {\nuse crate::cli;}";
     assert_eq!(imports(text), ["arm", "bounds", "check", "emit"]);
 }
+
+#[test]
+fn the_readme_shows_a_specification_that_is_tested() {
+    let readme = fs::read_to_string(root().join("README.md")).expect("the README");
+    let shown =
+        readme.split("```json\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a specification");
+    let kept = fs::read_to_string(root().join("tests/data/arm.json")).expect("the specification");
+    assert_eq!(shown, kept);
+}

@@ -59,7 +59,7 @@ fn watch(config: &Config, loaded: &[Result<Loaded, Error>], out: &mut impl Write
     let mut watched = |path: &Path| directive(out, "cargo:rerun-if-changed=", &path.to_string_lossy());
     for (spec, loaded) in config.specs.iter().zip(loaded) {
         watched(spec)?;
-        // A faulty specification still names files whose mending must rerun the script.
+        // A faulty specification still names files that must rerun the script once they are corrected.
         for named in loaded.iter().flat_map(|loaded| &loaded.named) {
             watched(&named.path)?;
         }
