@@ -115,21 +115,20 @@ impl ModelError<'_> {
             let angles = self.angles.map_or_else(|| vec![0.0; error.len()], |angles| angles.torque(rates));
             error.iter().zip(angles).map(|(error, angles)| error + angles).collect()
         };
-        let rounding = self.rounding(rates);
-        own.iter().zip(rounding).map(|(own, rounding)| (own + rounding).next_up()).collect()
+        let sum = |(own, rounding): (&f64, f64)| {
+            // Where there is nothing to compute, nothing is off.
+            if *own == 0.0 && rounding == 0.0 { 0.0 } else { (own + rounding).next_up() }
+        };
+        own.iter().zip(self.rounding().torque(rates)).map(sum).collect()
     }
 
-    /// Rounding in f64 of what is not simplified, by joint, N·m or N; that of the rest is in its certificates.
-    fn rounding(&self, rates: &Rates) -> Vec<f64> {
+    /// Rounding in f64 of what is not simplified, entry by entry; that of the rest is in its certificates.
+    pub fn rounding(&self) -> Bounds {
         let Self { lagrangian, reduced, domain, .. } = *self;
         let position_bound = position_bound(domain);
-        let n = lagrangian.dof;
-        let recursion = match self.form {
-            Form::Recursive => recursion_rounding(self.arm, &position_bound).torque(rates),
-            Form::Expanded | Form::Sparse => vec![0.0; n],
-        };
+        let recursion = || recursion_rounding(self.arm, &position_bound);
         if self.form == Form::Recursive && reduced.is_exact() {
-            return recursion;
+            return recursion();
         }
         let each: Vec<f64> =
             (0..lagrangian.coefficients.len())
@@ -141,13 +140,14 @@ impl ModelError<'_> {
                     }
                 })
                 .collect();
-        let vanishing = vanishing(lagrangian, &position_bound);
-        let of = |i: usize| -> f64 {
-            let terms = rates.multipliers(lagrangian, i).into_iter().zip(&each).map(|(u, most)| u * most);
-            let zeros = vanishing.iter().map(|&(entry, most)| rates.multiplier(entry, i) * most);
-            recursion[i] + terms.chain(zeros).sum::<f64>()
-        };
-        (0..n).map(|i| of(i).next_up()).collect()
+        let mut bounds = Bounds::new(lagrangian, &each);
+        for (entry, most) in vanishing(lagrangian, &position_bound) {
+            bounds.set(entry, most);
+        }
+        match self.form {
+            Form::Recursive => bounds.plus(&recursion()),
+            Form::Expanded | Form::Sparse => bounds,
+        }
     }
 
     /// What is said where a tolerance, kept by the arm as specified, is not kept by all that it may be.

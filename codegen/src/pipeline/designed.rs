@@ -24,6 +24,7 @@ impl Designed {
         let expanded = &modelled.sampled.expanded;
         let checked = &expanded.checked;
         let Some(control) = &checked.control else { return Ok(Self { certified, design: None }) };
+        let rounding = modelled.error().rounding();
         let design = design(&DesignProblem {
             file: &checked.loaded.path,
             control,
@@ -32,6 +33,7 @@ impl Designed {
             angles: modelled.sampled.angles.as_ref(),
             lagrangian: &expanded.lagrangian,
             bounds: &certified.bounds,
+            rounding: &rounding,
             domain: &checked.domain,
             motion: checked.motion.as_deref(),
             uncertainty: &checked.built.uncertainty,
