@@ -27,6 +27,7 @@ mod taylor;
 mod tensors;
 #[cfg(test)]
 mod tests;
+mod tolerance;
 mod torque;
 mod torque_scale;
 mod trig;

@@ -1,14 +1,13 @@
 //! What an emitted model leaves out: certificates, bounds, torque.
 
 use super::{
-    Bounds, Certificate, Effort, Met, Rates, Torque, TorqueScale, certified_telling, percent_up,
-    position_bound, published, recursion, recursion_rounding, torque_error, vanishing, with_sines,
+    Bounds, Certificate, Effort, Met, Rates, Torque, TorqueScale, certified_telling, position_bound,
+    published, recursion, recursion_rounding, torque_error, vanishing, with_sines,
 };
 use crate::arm::{Arm, Uncertainty};
 use crate::domain::Domain;
 use crate::lagrangian::Lagrangian;
 use crate::load::Loaded;
-use crate::number::percent;
 use crate::progress::Progress;
 use crate::reduction::Reduced;
 use crate::spec::Spec;
@@ -85,7 +84,8 @@ impl ModelError<'_> {
         let fraction = self.loaded.spec.model.tolerance().filter(|_| known);
         let proved = fraction.map(|fraction| scale.limits(fraction));
         let error = self.error(certificates, bounds, &scale.rates, proved);
-        Torque { error, peak: scale.peak, rates: scale.rates }
+        let rounding = self.rounding().torque(&scale.rates);
+        Torque { error, peak: scale.peak, rounding, rates: scale.rates }
     }
 
     /// The same at the rates that a law meets.
@@ -148,20 +148,5 @@ impl ModelError<'_> {
             Form::Recursive => bounds.plus(&recursion()),
             Form::Expanded | Form::Sparse => bounds,
         }
-    }
-
-    /// What is said where a tolerance, kept by the arm as specified, is not kept by all that it may be.
-    pub fn beyond_tolerance(&self, torque: &Torque) -> Option<String> {
-        let fraction = self.loaded.spec.model.tolerance()?;
-        let more = !self.uncertainty.parameters.is_empty() && torque.fraction() > fraction;
-        more.then(|| {
-            format!(
-                "{}: model: the tolerance of {} is kept by the arm as specified; over all that is uncertain the \
-                 certified torque error is {}",
-                self.loaded.path.display(),
-                percent(100.0 * fraction),
-                percent_up(torque.fraction())
-            )
-        })
     }
 }
