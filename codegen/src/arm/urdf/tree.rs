@@ -180,8 +180,9 @@ fn roles<'a>(
     file: &Path,
     faults: &mut Diagnostics,
 ) -> Vec<(&'a Joint<'a>, Role<'a>)> {
-    let movable: BTreeSet<&str> = ordered.iter().filter(|j| j.kind != Kind::Fixed).map(|j| j.name).collect();
-    for name in spec.lock.keys().filter(|name| !movable.contains(&name.as_str())) {
+    let movable: Vec<&str> = ordered.iter().filter(|j| j.kind != Kind::Fixed).map(|j| j.name).collect();
+    let known: BTreeSet<&str> = movable.iter().copied().collect();
+    for name in spec.lock.keys().filter(|name| !known.contains(name.as_str())) {
         let help = format!("name one of the movable joints {}", list(movable.iter().copied()));
         faults.push(
             format!("arm.lock.{name}"),
@@ -203,12 +204,13 @@ fn roles<'a>(
         }
         out.extend(role.map(|role| (*joint, role)));
     }
-    let moving: BTreeSet<&str> = out
+    let moving: Vec<&str> = out
         .iter()
         .filter(|(_, role)| matches!(role, Role::Moves | Role::Follows(_)))
         .map(|(j, _)| j.name)
         .collect();
-    for name in spec.joints.keys().filter(|name| !moving.contains(&name.as_str())) {
+    let known: BTreeSet<&str> = moving.iter().copied().collect();
+    for name in spec.joints.keys().filter(|name| !known.contains(name.as_str())) {
         let help = format!("name one of {}", list(moving.iter().copied()));
         faults.push(format!("arm.joints.{name}"), "is not a joint of the arm", help);
     }
