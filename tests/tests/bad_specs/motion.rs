@@ -198,6 +198,17 @@ const CASES: &[Case] = &[
         &["is 0", "at least 1"],
     ),
     case(
+        "a motion without end",
+        |i| {
+            i.link(0, "limits", json!({ "position": [-3, 3] })).set("/motion/quintic/duration", json!(1e300));
+        },
+        "motion",
+        &[
+            "position of joint 1 (joint1) may be without bound at t = 1.2",
+            "e298 s, outside its limits [-3, 3]",
+        ],
+    ),
+    case(
         "more rows than a module should hold",
         |i| {
             i.csv(&(0..30_000).map(|k| format!("{}.0,0.1,0.2,-1.2\n", k)).collect::<String>());
