@@ -1,4 +1,4 @@
-//! What can go wrong, as values: every message names the file, the field, the value and the mend.
+//! What can go wrong, as values: every message names the file, the field, the value and the help.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -9,6 +9,7 @@ use crate::text::escaped;
 pub const MOST_TOLD: usize = 100;
 
 /// One thing wrong with the input. Shown, it takes one line, whatever it holds.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// The file it stands in.
@@ -130,15 +131,17 @@ impl Diagnostics {
 }
 
 /// A generated file that is not what its specification gives.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stale {
     /// The file that differs or is missing.
     pub path: PathBuf,
-    /// The command that mends it.
+    /// The command that brings it up to date.
     pub command: String,
 }
 
 /// Why a stage could not deliver.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The input is at fault: exit code 2.

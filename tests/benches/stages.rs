@@ -6,10 +6,11 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use gramforge::bounds::{Effort, certified};
-use gramforge::domain::Measure;
-use gramforge::lagrangian::expand;
-use gramforge::{Generation, reduction, torque};
+use gramforge::Generation;
+use gramforge::internals::bounds::{Effort, certified};
+use gramforge::internals::domain::Measure;
+use gramforge::internals::lagrangian::expand;
+use gramforge::internals::{reduction, torque};
 use gramforge_tests::{arm, generation, spec};
 
 fn expansion(c: &mut Criterion) {

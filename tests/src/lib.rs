@@ -10,11 +10,11 @@ pub mod truth;
 use std::path::{Path, PathBuf};
 
 use gramforge::Generation;
-use gramforge::arm::{Arm, Built};
-use gramforge::check::prepare;
-use gramforge::error::Diagnostics;
+use gramforge::internals::arm::{Arm, Built};
+use gramforge::internals::check::prepare;
+use gramforge::internals::error::Diagnostics;
+use gramforge::internals::motion::Motion;
 use gramforge::load::{Loaded, parse};
-use gramforge::motion::Motion;
 use serde_json::Value;
 
 /// The specification file of `name`, from `data/` or else from the committed ones.
@@ -87,3 +87,8 @@ pub fn difference<'a>(a: impl IntoIterator<Item = &'a f64>, b: impl IntoIterator
         if apart.is_nan() { f64::INFINITY } else { most.max(apart) }
     })
 }
+
+/// The code of README.md, compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

@@ -1,8 +1,8 @@
 //! The adaptive law: its generated modules, what it learns, and the report's two claims about robust and adaptive control.
 
 use gramforge::Generation;
-use gramforge::arm::Arm;
-use gramforge::simulate::{ArmModel, Run, Scenario, simulate_on};
+use gramforge::internals::arm::Arm;
+use gramforge::internals::simulate::{ArmModel, Run, Scenario, simulate_on};
 use gramforge_generated::{arm3_adaptive, arm3_adaptive_guaranteed, arm3_robust};
 use gramforge_runtime::law::Law;
 use gramforge_runtime::reference::Reference;

@@ -1,8 +1,8 @@
 //! Bounds and the design that rests on them: ΔC and k*.
 
-use gramforge::bounds::Bounds;
-use gramforge::domain::Measure;
-use gramforge::lagrangian::evaluate;
+use gramforge::internals::bounds::Bounds;
+use gramforge::internals::domain::Measure;
+use gramforge::internals::lagrangian::evaluate;
 use gramforge_tests::generation;
 use gramforge_tests::random::Random;
 use nalgebra::DMatrix;

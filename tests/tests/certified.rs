@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 use attack::{Seen, attack, violations};
 use gramforge::Generation;
-use gramforge::bounds::{Effort, Rates, torque_error};
+use gramforge::internals::bounds::{Effort, Rates, torque_error};
 use gramforge::load::{load, parse};
 use space::Space;
 use worth::worths;
@@ -226,7 +226,7 @@ fn the_bounds_do_not_depend_on_the_number_of_threads() {
 
 #[test]
 fn a_spent_budget_still_leaves_a_certificate() {
-    let hasty = generation("generated/specs/puma560_xi6.json", &Effort { boxes: 8, ..Effort::default() });
+    let hasty = generation("generated/specs/puma560_xi6.json", &Effort::default().boxes(8));
     let any = f64::INFINITY;
     check(&hasty, &Demand { states: 2_000, median: any, worst: any, rest: any, ..LIGHT });
 }

@@ -1,7 +1,7 @@
 //! The report's example in closed loop: what its figures claim, and the same run through the generated modules.
 
 use gramforge::Generation;
-use gramforge::simulate::{ArmModel, Comparison, Run, Scenario, simulate};
+use gramforge::internals::simulate::{ArmModel, Comparison, Run, Scenario, simulate};
 use gramforge_generated::{arm3_exact, arm3_xi2};
 use gramforge_runtime::Model;
 use gramforge_runtime::reference::Reference;

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use gramforge::Generation;
-use gramforge::control::Design;
+use gramforge::internals::control::Design;
+use gramforge::internals::simulate::{Comparison, Scenario, simulate};
 use gramforge::load::parse;
-use gramforge::simulate::{Comparison, Scenario, simulate};
 use serde_json::{Value, json};
 
 const ARM3: &str = include_str!("../../generated/specs/arm3_xi2.json");

@@ -4,13 +4,13 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use gramforge::Generation;
-use gramforge::bounds::{Effort, Rates};
-use gramforge::domain::Domain;
-use gramforge::lagrangian::Values;
+use gramforge::internals::bounds::{Effort, Rates};
+use gramforge::internals::domain::Domain;
+use gramforge::internals::lagrangian::Values;
+use gramforge::internals::numerics::low_discrepancy::LowDiscrepancy;
+use gramforge::internals::torque::Form;
 use gramforge::load::load;
-use gramforge::numerics::low_discrepancy::LowDiscrepancy;
 use gramforge::spec::ModelSpec;
-use gramforge::torque::Form;
 
 const TOLERANCE: f64 = 0.05;
 
@@ -19,7 +19,7 @@ fn made(torque: f64) -> Generation {
     let mut loaded = load(&file).unwrap();
     loaded.spec.control = None;
     loaded.spec.model = ModelSpec::Tolerance { torque };
-    Generation::with_effort(loaded, &Effort { boxes: 500, ..Effort::default() }).unwrap()
+    Generation::with_effort(loaded, &Effort::default().boxes(500)).unwrap()
 }
 
 /// A UR5 at 5 %.
@@ -116,7 +116,7 @@ fn no_coefficient_exceeds_its_certificate() {
         let psi = generation.lagrangian().evaluate_functions(&state[0]);
         for (m, certificate) in generation.certificates().iter().enumerate() {
             let left = generation.reduced().residual(generation.lagrangian(), m);
-            let left = gramforge::lagrangian::evaluate(&left, &psi).abs();
+            let left = gramforge::internals::lagrangian::evaluate(&left, &psi).abs();
             assert!(!generation.reduced().simplified[m] || left <= certificate.bound);
         }
     }

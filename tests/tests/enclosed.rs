@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use gramforge::Generation;
+use gramforge::internals::simulate::{Run, Scenario, simulate};
 use gramforge::load::parse;
-use gramforge::simulate::{Run, Scenario, simulate};
 use serde_json::{Value, json};
 
 const ARM3: &str = include_str!("../../generated/specs/arm3_xi2.json");
@@ -186,7 +186,7 @@ fn the_bounds_of_a_switching_law_are_sharp_whatever_the_model() {
     })
     .unwrap();
     assert!(!generation.reduced().is_exact());
-    let ratio = gramforge::bounds::worst_ratio(generation.lagrangian(), generation.certificates());
+    let ratio = gramforge::internals::bounds::worst_ratio(generation.lagrangian(), generation.certificates());
     println!("bound over largest value found: {ratio:.4}");
     assert!((1.0..=1.0101).contains(&ratio));
 }

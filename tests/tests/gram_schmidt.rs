@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use gramforge::arm::Arm;
-use gramforge::domain::{Domain, Measure};
-use gramforge::lagrangian::{Lagrangian, evaluate, expand};
-use gramforge::motion::Motion;
-use gramforge::reduction::{GramSchmidt, Reduced, Samples, shared, weight};
+use gramforge::internals::arm::Arm;
+use gramforge::internals::domain::{Domain, Measure};
+use gramforge::internals::lagrangian::{Lagrangian, evaluate, expand};
+use gramforge::internals::motion::Motion;
+use gramforge::internals::reduction::{GramSchmidt, Reduced, Samples, shared, weight};
 use gramforge_tests::random::Random;
 use gramforge_tests::{arm, difference, largest, motion};
 use nalgebra::{DMatrix, DVector};
@@ -150,7 +150,7 @@ fn all_functions_reproduce_the_model() {
         let p = lagrangian.functions.len();
         assert_eq!(
             shared(lagrangian, &measure, p).combinations,
-            gramforge::reduction::exact(lagrangian).combinations
+            gramforge::internals::reduction::exact(lagrangian).combinations
         );
 
         let samples = Samples::new(lagrangian, &measure);
@@ -248,7 +248,7 @@ fn weights_are_those_of_equation_2() {
         |j: usize, s: f64| (to[j] - from[j]) / (duration * duration) * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s);
     let mut worst = 0.0_f64;
     for coefficient in &case.lagrangian.coefficients {
-        use gramforge::lagrangian::Entry;
+        use gramforge::internals::lagrangian::Entry;
         let stands = |entry: Entry| coefficient.places.iter().any(|place| place.entry == entry);
         let mut right = 0.0;
         for i in 0..n {

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use gramforge::Generation;
+use gramforge::internals::simulate::{Comparison, Scenario, simulate};
 use gramforge::load::parse;
-use gramforge::simulate::{Comparison, Scenario, simulate};
 use gramforge_generated::{arm3_exact, arm3_xi1, arm3_xi2};
 use gramforge_runtime::law::Sample;
 use gramforge_runtime::reference::Reference;

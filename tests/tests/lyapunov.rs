@@ -8,9 +8,9 @@ mod closed;
 
 use closed::{Loop, dot, member, report};
 use gramforge::Generation;
-use gramforge::control::Design;
-use gramforge::domain::Domain;
-use gramforge::simulate::GraphModel;
+use gramforge::internals::control::Design;
+use gramforge::internals::domain::Domain;
+use gramforge::internals::simulate::GraphModel;
 use gramforge_generated::arm3_adaptive_guaranteed as adaptive;
 use gramforge_generated::puma560_xi6;
 use gramforge_runtime::law::{Sample, Tracking};

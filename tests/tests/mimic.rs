@@ -1,7 +1,8 @@
 //! Arms some of whose joints follow others, against an outside oracle: D, C, G and τ of the coordinates.
 
-use gramforge::torque::{expanded, plain, recursive};
-use gramforge::{Generation, dynamics, reduction};
+use gramforge::Generation;
+use gramforge::internals::torque::{expanded, plain, recursive};
+use gramforge::internals::{dynamics, reduction};
 use gramforge_runtime::Model;
 use gramforge_tests::chain::{Chain, Link};
 use gramforge_tests::random::Random;
@@ -65,10 +66,10 @@ fn generation(chain: &Chain, more: &Value) -> Result<Generation, String> {
     Generation::new(loaded).map_err(|error| error.to_string())
 }
 
-fn checked(chain: &Chain) -> gramforge::check::Checked {
+fn checked(chain: &Chain) -> gramforge::internals::check::Checked {
     let folder = tempfile::tempdir().expect("a folder");
     let loaded = loaded(chain, &json!({}), folder.path()).unwrap_or_else(|error| panic!("{error}"));
-    gramforge::check::checked(loaded, gramforge::check::Extent::Whole)
+    gramforge::internals::check::checked(loaded, gramforge::internals::check::Extent::Whole)
         .unwrap_or_else(|error| panic!("{error}"))
 }
 

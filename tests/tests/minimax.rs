@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use gramforge::Generation;
-use gramforge::bounds::{Effort, certified};
-use gramforge::domain::Measure;
-use gramforge::lagrangian::Lagrangian;
+use gramforge::internals::bounds::{Effort, certified};
+use gramforge::internals::domain::Measure;
+use gramforge::internals::lagrangian::Lagrangian;
+use gramforge::internals::reduction::{Reduced, extremes, minimax, shared, weight};
 use gramforge::load::load;
-use gramforge::reduction::{Reduced, extremes, minimax, shared, weight};
 use gramforge::spec::ModelSpec;
 
 /// The stages up to the measure, of a committed specification.

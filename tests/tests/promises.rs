@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
+use gramforge::Effort;
 use gramforge::Generation;
-use gramforge::bounds::Effort;
-use gramforge::control::Design;
+use gramforge::internals::control::Design;
+use gramforge::internals::simulate::{Run, Scenario, simulate};
 use gramforge::load::parse;
-use gramforge::simulate::{Run, Scenario, simulate};
 use gramforge_tests::random::Random;
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -222,7 +222,7 @@ fn a_torque_limit_below_the_desired_motion_voids_the_guarantee() {
 
 #[test]
 fn the_tube_that_is_said_to_be_enough_is_enough() {
-    let effort = Effort { seek_tube: true, ..Effort::default() };
+    let effort = Effort::default().seek_tube(true);
     let with = |tube: Value| {
         let edit = |v: &mut Value| {
             safe(v);

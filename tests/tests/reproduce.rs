@@ -1,8 +1,8 @@
 //! The report's section 4: which of its claims the runs bear out.
 
-use gramforge::progress::Silent;
-use gramforge::report::{Figures, figures};
-use gramforge::reproduce::{claims, run};
+use gramforge::internals::progress::Silent;
+use gramforge::internals::report::{Figures, figures};
+use gramforge::internals::reproduce::{claims, run};
 
 #[test]
 fn the_reports_claims_hold_where_they_can() {

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
+use gramforge::Effort;
 use gramforge::Generation;
-use gramforge::bounds::Effort;
-use gramforge::lagrangian::evaluate;
+use gramforge::internals::lagrangian::evaluate;
+use gramforge::internals::numerics::low_discrepancy::{LowDiscrepancy, in_box};
+use gramforge::internals::reduction::Reduced;
 use gramforge::load::load;
-use gramforge::numerics::low_discrepancy::{LowDiscrepancy, in_box};
-use gramforge::reduction::Reduced;
 use gramforge::spec::{ModelSpec, RefitSpec};
 
 /// The PUMA 560's first three links; full certificates are tested elsewhere.
@@ -16,7 +16,7 @@ fn made(functions: usize, refit: RefitSpec) -> Generation {
     let mut loaded = load(&path).unwrap();
     loaded.spec.model = ModelSpec::Separate { functions };
     loaded.spec.refit = refit;
-    Generation::with_effort(loaded, &Effort { boxes: 2_000, ..Effort::default() }).unwrap()
+    Generation::with_effort(loaded, &Effort::default().boxes(2_000)).unwrap()
 }
 
 fn kept(reduced: &Reduced, m: usize) -> Vec<usize> {
@@ -54,11 +54,11 @@ fn no_position_exceeds_a_bound() {
         for index in 0..4_000 {
             let unit = spread.point(index);
             let q: Vec<f64> = match made.domain() {
-                gramforge::domain::Domain::Tube(motion, errors) => {
+                gramforge::internals::domain::Domain::Tube(motion, errors) => {
                     let centre = motion.at(motion.duration() * unit[made.arm().dof()]).q;
                     centre.iter().zip(errors).zip(&unit).map(|((q, e), u)| q + e * (2.0 * u - 1.0)).collect()
                 }
-                gramforge::domain::Domain::Workspace(limits) => in_box(limits, &unit),
+                gramforge::internals::domain::Domain::Workspace(limits) => in_box(limits, &unit),
                 _ => continue,
             };
             let psi = made.lagrangian().evaluate_functions(&q);

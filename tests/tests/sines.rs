@@ -1,13 +1,13 @@
 //! Approximate sines in the generated code: bounds that count them hold, and do not without that part.
 
 use gramforge::Generation;
-use gramforge::arm::Arm;
-use gramforge::bounds::{Bounds, recursion};
-use gramforge::dynamics::{coriolis, gravity, mass_matrix};
-use gramforge::graph::Graph;
+use gramforge::internals::arm::Arm;
+use gramforge::internals::bounds::{Bounds, recursion};
+use gramforge::internals::dynamics::{coriolis, gravity, mass_matrix};
+use gramforge::internals::graph::Graph;
+use gramforge::internals::torque::{Form, recursive};
+use gramforge::internals::trig::{Kind, Trig};
 use gramforge::load::{Loaded, parse, spec_hash};
-use gramforge::torque::{Form, recursive};
-use gramforge::trig::{Kind, Trig};
 use gramforge_tests::random::Random;
 use gramforge_tests::{arm, motion, spec};
 use serde_json::{Value, json};

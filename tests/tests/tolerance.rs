@@ -6,17 +6,17 @@
 use std::path::{Path, PathBuf};
 
 use gramforge::Generation;
-use gramforge::bounds::{Effort, Rates};
-use gramforge::choose::why_exact;
-use gramforge::domain::Domain;
-use gramforge::dynamics::inverse_dynamics;
-use gramforge::graph::Graph;
-use gramforge::lagrangian::{Combination, evaluate, expand};
+use gramforge::internals::bounds::{Effort, Rates};
+use gramforge::internals::choose::why_exact;
+use gramforge::internals::domain::Domain;
+use gramforge::internals::dynamics::inverse_dynamics;
+use gramforge::internals::graph::Graph;
+use gramforge::internals::lagrangian::{Combination, evaluate, expand};
+use gramforge::internals::numerics::low_discrepancy::{LowDiscrepancy, in_box};
+use gramforge::internals::reduction::{Dictionary, products};
+use gramforge::internals::torque::recursive;
 use gramforge::load::{Loaded, load};
-use gramforge::numerics::low_discrepancy::{LowDiscrepancy, in_box};
-use gramforge::reduction::{Dictionary, products};
 use gramforge::spec::{DictionarySpec, MeasureSpec, ModelSpec};
-use gramforge::torque::recursive;
 
 fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(name).with_extension("json")
@@ -37,7 +37,7 @@ fn workspace() -> Loaded {
 
 fn made(mut loaded: Loaded, model: ModelSpec) -> Generation {
     loaded.spec.model = model;
-    Generation::with_effort(loaded, &Effort { boxes: 500, ..Effort::default() }).unwrap()
+    Generation::with_effort(loaded, &Effort::default().boxes(500)).unwrap()
 }
 
 fn within(loaded: &Loaded, torque: f64) -> Generation {

@@ -6,10 +6,10 @@ mod arms;
 use std::path::{Path, PathBuf};
 
 use arms::{ACCELERATION, Case, RANGE, SPEED, case, welded};
+use gramforge::Effort;
 use gramforge::Generation;
-use gramforge::bounds::Effort;
+use gramforge::internals::torque::Form;
 use gramforge::load::load;
-use gramforge::torque::Form;
 use gramforge_tests::oracle::passivity_torque;
 use gramforge_tests::random::Random;
 use gramforge_tests::scratch::{Call, compile};
@@ -44,7 +44,7 @@ fn made(folder: &Path, case: Case, model: &str, edit: impl Fn(&mut Value)) -> Ma
     }
     let path = folder.join(format!("{name}.json"));
     std::fs::write(&path, spec.to_string()).unwrap();
-    let effort = Effort { boxes: 2000, starts: 2, ..Effort::default() };
+    let effort = Effort::default().boxes(2000).starts(2);
     let generation = load(&path)
         .and_then(|loaded| Generation::with_effort(loaded, &effort))
         .unwrap_or_else(|error| panic!("{error}"));

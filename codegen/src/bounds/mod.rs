@@ -41,6 +41,7 @@ pub use rates::Rates;
 pub use recursion::{beside_expansion, recursion, recursion_rounding, rounded_angles};
 pub use region::position_bound;
 pub(crate) use rounding::{percent_up, printed_down, printed_up, published, vanishing};
+use serde::{Deserialize, Serialize};
 pub use torque::{Met, Torque, peak_torque, separate_error, torque_error, torque_exceeds};
 pub(crate) use torque_scale::SCATTERED;
 pub use torque_scale::TorqueScale;
@@ -68,6 +69,7 @@ pub const LONG: usize = 1000;
 pub const DIGITS: usize = 6;
 
 /// How much work a certificate may take.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
     /// Where bound and largest value found differ by less than this fraction, branch and bound stops.
@@ -89,8 +91,28 @@ impl Default for Effort {
     }
 }
 
+impl Effort {
+    /// The same with another number of boxes for each residual.
+    #[must_use]
+    pub fn boxes(self, boxes: usize) -> Self {
+        Self { boxes, ..self }
+    }
+
+    /// The same with another number of starts of the search from below.
+    #[must_use]
+    pub fn starts(self, starts: usize) -> Self {
+        Self { starts, ..self }
+    }
+
+    /// The same, where the smallest sufficient tube is sought or not.
+    #[must_use]
+    pub fn seek_tube(self, seek_tube: bool) -> Self {
+        Self { seek_tube, ..self }
+    }
+}
+
 /// A bound on one coefficient, and how sharp it is.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
     /// |α_m − α̂_m| exceeds this nowhere in the domain, evaluation in f64 included.
     pub bound: f64,
@@ -253,7 +275,7 @@ fn vertex(active: &[usize], lagrangian: &Lagrangian, index: usize) -> Vec<f64> {
 }
 
 /// Element-by-element bounds (26)–(28) over a domain, zero where the model is exact.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bounds {
     /// ΔD, n×n.
     pub d: Vec<Vec<f64>>,

@@ -154,7 +154,7 @@ fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Diagnostics) -> Option
     motion
 }
 
-/// What mends a model that does not go with the rest.
+/// The help for a model that does not go with the rest.
 const MODEL: &str = "write `model` as {\"shared\": {\"functions\": N}} or \"exact\"";
 const HARMONIC: &str = "leave out `dictionary`";
 

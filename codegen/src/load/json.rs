@@ -54,7 +54,7 @@ pub(super) fn narrow(value: &mut Value) {
     }
 }
 
-/// Problem and mend of a syntax error.
+/// Problem and help for a syntax error.
 fn syntax(error: &serde_json::Error) -> (String, &'static str) {
     let place = format!(" at line {} column {}", error.line(), error.column());
     let whole = error.to_string();
@@ -64,7 +64,7 @@ fn syntax(error: &serde_json::Error) -> (String, &'static str) {
     } else if error.is_eof() {
         "complete the file: a quote, bracket or brace is not closed"
     } else {
-        "mend the JSON there: double quotes around names, commas between entries, no comments"
+        "correct the JSON there: double quotes around names, commas between entries, no comments"
     };
     (format!("line {}, column {}: {what}", error.line(), error.column()), help)
 }

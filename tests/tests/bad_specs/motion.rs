@@ -28,6 +28,23 @@ const CASES: &[Case] = &[
         &["is -5", "above 0, in s"],
     ),
     case(
+        "a motion beyond all measure",
+        |i| {
+            i.link(0, "limits", json!({ "position": [-3, 3] })).set("/motion/quintic/to/0", json!(1e300));
+        },
+        "motion",
+        &["position of joint 1 (joint1) is ", "e", "s, outside its limits [-3, 3]"],
+    ),
+    case(
+        "a waypoint without end",
+        |i| {
+            let positions = vec![vec![0.0, 0.3, -1.2]; 3];
+            i.set("/motion", json!({ "waypoints": { "times": [0.0, 1.0, 2e7], "positions": positions } }));
+        },
+        "motion.waypoints.times[2]",
+        &["is 2e7", "at most 1e7, in s"],
+    ),
+    case(
         "outside the position limits",
         |i| {
             i.link(1, "limits", json!({ "position": [-1.0, 1.0] }));

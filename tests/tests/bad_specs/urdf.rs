@@ -32,7 +32,7 @@ const CASES: &[Case] = &[
             i.urdf("<link name=\"base\">");
         },
         "",
-        &["is not a URDF file", "robot", "mend the XML there"],
+        &["is not a URDF file", "robot", "correct the XML there"],
     )
     .inside("arm.urdf"),
     case(

@@ -1,7 +1,7 @@
 //! Names that collide with something, and modules of every kind: refused with a clear message, or accepted by the
 //! compiler and by clippy without a warning.
 
-use gramforge::check::{Extent, checked};
+use gramforge::internals::check::{Extent, checked};
 use gramforge::load::parse;
 use serde_json::{Value, json};
 

@@ -1,9 +1,9 @@
 //! What a reduced model leaves out, by the recursive exact model rather than the expansion from which it was reduced.
 
 use gramforge::Generation;
-use gramforge::arm::JointKind;
-use gramforge::dynamics::{Position, passivity_torque};
-use gramforge::lagrangian::{Entry, Place};
+use gramforge::internals::arm::JointKind;
+use gramforge::internals::dynamics::{Position, passivity_torque};
+use gramforge::internals::lagrangian::{Entry, Place};
 
 /// The pass of the recursion that gives a column of the exact model.
 #[derive(Clone, Copy, PartialEq)]
@@ -82,7 +82,7 @@ impl<'a> Errors<'a> {
     }
 
     fn positions(&self, q: &[f64]) -> Vec<Position<f64>> {
-        let position = |(joint, &q): (&gramforge::arm::Joint, &f64)| match joint.kind {
+        let position = |(joint, &q): (&gramforge::internals::arm::Joint, &f64)| match joint.kind {
             JointKind::Revolute => Position::Revolute { sin: q.sin(), cos: q.cos() },
             JointKind::Prismatic => Position::Prismatic(q),
         };

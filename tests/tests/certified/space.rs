@@ -1,7 +1,7 @@
 //! The domain of a certificate as a box, and states in it.
 
 use gramforge::Generation;
-use gramforge::domain::Domain;
+use gramforge::internals::domain::Domain;
 
 /// Position errors and time, or positions.
 pub struct Space<'a> {

@@ -1,9 +1,9 @@
 //! One arm under control, and what V does.
 
 use gramforge::Generation;
-use gramforge::arm::Arm;
-use gramforge::control::Design;
-use gramforge::simulate::ArmModel;
+use gramforge::internals::arm::Arm;
+use gramforge::internals::control::Design;
+use gramforge::internals::simulate::ArmModel;
 use gramforge_runtime::law::{Law, Sample, Tracking, lyapunov};
 use gramforge_runtime::reference::Reference;
 use gramforge_runtime::simulate::{JointState, Plant, RigidPlant, Simulation};

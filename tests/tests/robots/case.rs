@@ -1,6 +1,7 @@
 //! A good arm of two joints, changed step by step, and what becomes of it.
 
-use gramforge::{Generation, dynamics};
+use gramforge::Generation;
+use gramforge::internals::dynamics;
 use gramforge_tests::chain::{Chain, Link};
 use gramforge_tests::random::Random;
 use gramforge_tests::{difference, largest};

@@ -42,7 +42,7 @@ fn lines_are_those_of_the_file() {
         .refused(
             Some("</joint>\n</robot>"),
             "",
-            &["is not a URDF file that can be read", "mend the XML there"],
+            &["is not a URDF file that can be read", "correct the XML there"],
         );
     Case::new("behind a comment")
         .edit("<link name=\"base\"/>", "<!-- \n\n\n --><link name=\"base\"/>")

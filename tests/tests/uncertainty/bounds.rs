@@ -1,10 +1,10 @@
 //! No member of the family exceeds a bound, anywhere in the domain.
 
 use gramforge::Generation;
-use gramforge::bounds::at_vertices;
-use gramforge::dynamics::{coriolis, gravity, mass_matrix};
-use gramforge::lagrangian::{Combination, Lagrangian, evaluate};
-use gramforge::reduction::{Reduced, plus};
+use gramforge::internals::bounds::at_vertices;
+use gramforge::internals::dynamics::{coriolis, gravity, mass_matrix};
+use gramforge::internals::lagrangian::{Combination, Lagrangian, evaluate};
+use gramforge::internals::reduction::{Reduced, plus};
 use gramforge_tests::random::Random;
 use gramforge_tests::{edited, largest};
 use serde_json::{Value, json};

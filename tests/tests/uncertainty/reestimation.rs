@@ -2,9 +2,9 @@
 //! exact bounds.
 
 use gramforge::Generation;
-use gramforge::bounds::{Effort, at_vertices, factor, factor_bounds};
-use gramforge::lagrangian::{Combination, evaluate};
-use gramforge::reduction::plus;
+use gramforge::internals::bounds::{Effort, at_vertices, factor, factor_bounds};
+use gramforge::internals::lagrangian::{Combination, evaluate};
+use gramforge::internals::reduction::plus;
 use gramforge_tests::edited;
 use gramforge_tests::random::Random;
 use serde_json::{Value, json};
@@ -59,7 +59,7 @@ fn every_member_has_its_parameters_in_the_box() {
                         .fold(reduced.combinations[m].clone(), |sum, (u, v)| plus(&sum, *u, v))
                 })
                 .collect();
-            let theta = |(k, p): (usize, &gramforge::reduction::Learnt)| match kind {
+            let theta = |(k, p): (usize, &gramforge::internals::reduction::Learnt)| match kind {
                 "uncertain" => u[k],
                 _ => coefficient(&wanted[p.effects[0].0], p.effects[0].1[0].0),
             };

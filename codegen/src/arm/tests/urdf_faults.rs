@@ -38,7 +38,7 @@ fn line_of(text: &str) -> usize {
 }
 
 #[test]
-fn faults_name_file_place_value_and_mend() {
+fn faults_name_file_place_value_and_help() {
     let u = usual;
     let swing = r#"<joint name="swing" type="revolute">"#;
     refused("two-tips", &[], json!({ "lock": { "grip": 0.0 } }), "name one of camera, finger, tool");

@@ -225,7 +225,7 @@ impl<'a> Parser<'a> {
         Wrong {
             line: Some(self.line(at)),
             problem: format!("is not a URDF file that can be read ({what})"),
-            help: "mend the XML there",
+            help: "correct the XML there",
         }
     }
 }
