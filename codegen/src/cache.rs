@@ -17,7 +17,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-use crate::load::{Loaded, canonical};
+use crate::load::{Loaded, canonical, read_text};
 use crate::output::write_all;
 
 /// Name of the cache's folder.
@@ -64,7 +64,7 @@ impl Cache {
     /// The entry of `kind` under `key`, whole.
     pub fn get<T: DeserializeOwned>(&self, kind: &str, key: &str) -> Option<T> {
         let path = self.path(kind, key);
-        let text = fs::read_to_string(&path).ok()?;
+        let text = read_text(&path).ok()?;
         let (hash, body) = text.split_once('\n')?;
         if hash != hex(&Sha256::digest(body.as_bytes())) {
             return None;

@@ -27,6 +27,7 @@ mod taylor;
 mod tensors;
 #[cfg(test)]
 mod tests;
+mod tolerance;
 mod torque;
 mod torque_scale;
 mod trig;
@@ -301,20 +302,25 @@ impl Bounds {
             Self { d: vec![zero.clone(); n], h: vec![vec![zero.clone(); n]; n], b: zero.clone(), g: zero };
         for (coefficient, &delta) in lagrangian.coefficients.iter().zip(deltas) {
             for place in &coefficient.places {
-                match place.entry {
-                    Entry::D(i, j) => {
-                        out.d[i][j] = delta;
-                        out.d[j][i] = delta;
-                    }
-                    Entry::H(i, j, k) => {
-                        out.h[i][j][k] = delta;
-                        out.h[i][k][j] = delta;
-                    }
-                    Entry::G(i) => out.g[i] = delta,
-                }
+                out.set(place.entry, delta);
             }
         }
         out
+    }
+
+    /// Sets the bound of one entry, and of that which is equal to it by symmetry.
+    fn set(&mut self, entry: Entry, delta: f64) {
+        match entry {
+            Entry::D(i, j) => {
+                self.d[i][j] = delta;
+                self.d[j][i] = delta;
+            }
+            Entry::H(i, j, k) => {
+                self.h[i][j][k] = delta;
+                self.h[i][k][j] = delta;
+            }
+            Entry::G(i) => self.g[i] = delta,
+        }
     }
 
     /// Those of the certificates; ΔB = 0.
@@ -332,6 +338,11 @@ impl Bounds {
             b: vec![0.0; sizes.gravity.len()],
             g: row(&sizes.gravity),
         }
+    }
+
+    /// The sizes themselves, as bounds on what stands there; ΔB = 0.
+    pub(crate) fn of_sizes(sizes: &Sizes) -> Self {
+        Self::from_sizes(sizes, |size| size.exact)
     }
 
     /// With [`DIGITS`] digits, rounded up: what has to be read by people and stored in firmware needs no more.

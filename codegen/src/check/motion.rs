@@ -5,6 +5,7 @@ use crate::arm::Arm;
 use crate::error::Diagnostics;
 use crate::load::Loaded;
 use crate::motion::{LONGEST, Motion, check_limits};
+use crate::number::scientific;
 use crate::spec::MotionSpec;
 use crate::text::has;
 
@@ -68,13 +69,13 @@ fn waypoints(times: &[f64], positions: &[Vec<f64>], joints: Option<usize>, fault
         faults.push(field, has(times.len()), "write at least 2 times");
     }
     if let Some(first) = times.first().filter(|t| **t != 0.0) {
-        faults.push(format!("{field}[0]"), format!("is {first}"), "start at 0");
+        faults.push(format!("{field}[0]"), format!("is {}", scientific(*first)), "start at 0");
     }
     for (i, pair) in times.windows(2).enumerate() {
         if let [before, after] = pair
             && after <= before
         {
-            let problem = format!("is {after}, after {before}");
+            let problem = format!("is {}, after {}", scientific(*after), scientific(*before));
             faults.push(format!("{field}[{}]", i + 1), problem, "let the times rise");
         }
     }
@@ -103,7 +104,7 @@ fn at_most(field: &str, found: usize, most: usize, faults: &mut Diagnostics) {
 
 fn seconds(field: &str, value: f64, faults: &mut Diagnostics) {
     if value <= 0.0 {
-        faults.push(field, format!("is {value}"), "write a number above 0, in s");
+        faults.push(field, format!("is {}", scientific(value)), "write a number above 0, in s");
     } else if value > LONGEST {
         faults.push(field, format!("is {value:e}"), format!("write at most {LONGEST:e}, in s"));
     }

@@ -11,6 +11,7 @@ use std::sync::{Mutex, PoisonError};
 use super::made::Made;
 use crate::emit::spoilt;
 use crate::error::Error;
+use crate::load::read_text;
 use crate::output::{Wanted, write_all};
 
 /// Name of the list: a JSON array of paths relative to its folder.
@@ -88,7 +89,7 @@ impl Modules {
 
 /// The list's paths that lie in `out_dir`; nothing where there is no list.
 fn listed(out_dir: &Path) -> BTreeSet<PathBuf> {
-    let text = fs::read_to_string(out_dir.join(LIST)).unwrap_or_default();
+    let text = read_text(&out_dir.join(LIST)).unwrap_or_default();
     let paths: Vec<PathBuf> = serde_json::from_str(&text).unwrap_or_default();
     let inside = |path: &PathBuf| {
         path.components().all(|part| matches!(part, Component::Normal(_)))

@@ -78,7 +78,8 @@ impl Modelled {
 
 impl Certified {
     /// # Errors
-    /// [`Error::Input`] where the model overflows within the domain.
+    /// [`Error::Input`] where the model overflows within the domain, or the rounding of rotations alone takes more than
+    /// the tolerance.
     pub fn new(mut modelled: Modelled, means: Means) -> Result<Self, Error> {
         let error = modelled.error();
         let (certificates, mut bounds) = error.bounds(means.effort, means.progress);
@@ -86,19 +87,22 @@ impl Certified {
         let scale = modelled.sampled.scale.clone();
         let torque = scale.map(|scale| error.torque(&certificates, &bounds, scale));
         drop(stage);
-        let beyond = torque.as_ref().and_then(|torque| error.beyond_tolerance(torque));
-        modelled.warnings.extend(beyond);
+        let mut faults = Diagnostics::of(&modelled.sampled.expanded.checked.loaded.path);
+        let mut warnings = Vec::new();
+        if let Some(torque) = &torque {
+            error.judge_tolerance(torque, &mut faults, &mut warnings);
+        }
+        modelled.warnings.extend(warnings);
         let checked = &modelled.sampled.expanded.checked;
         if !checked.built.uncertainty.viscous.is_empty() {
             bounds.b.clone_from(&checked.built.uncertainty.viscous);
         }
         let bounds = bounds.rounded_up();
         if !(modelled.model.reduced.is_finite() && bounds.is_finite()) {
-            let mut faults = Diagnostics::of(&checked.loaded.path);
             let help = "write positions, speeds and the measure in SI units";
             faults.push("measure", "reaches states at which the model overflows", help);
-            return Err(faults.into_error());
         }
+        faults.finish(())?;
         let Modelled { sampled, model, exact, regression, regressor, warnings } = modelled;
         let Sampled { expanded, sines, turn, angles, .. } = sampled;
         let Expanded { checked, lagrangian, .. } = expanded;

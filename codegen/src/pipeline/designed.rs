@@ -22,6 +22,7 @@ impl Designed {
     pub fn new(certified: Certified, means: Means) -> Result<Self, Error> {
         let (checked, proved) = (&certified.checked, &certified.proved);
         let Some(control) = &checked.control else { return Ok(Self { certified, design: None }) };
+        let rounding = certified.error().rounding();
         let design = design(&DesignProblem {
             file: &checked.loaded.path,
             control,
@@ -30,6 +31,7 @@ impl Designed {
             angles: certified.angles.as_ref(),
             lagrangian: &proved.lagrangian,
             bounds: &proved.bounds,
+            rounding: &rounding,
             domain: &checked.domain,
             motion: checked.motion.as_deref(),
             uncertainty: &checked.built.uncertainty,

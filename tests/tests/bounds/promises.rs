@@ -151,6 +151,32 @@ fn errors_end_inside_the_published_ones_while_the_arm_moves() {
     }
 }
 
+/// A motion that stays where it is takes no torque that changes: rounding alone is left.
+#[test]
+fn the_final_error_of_a_joint_at_rest_is_that_of_rounding() {
+    for (place, law, layer) in [(100.0, "exact", None), (0.4, "tight", Some(0.1)), (0.4, "report", None)] {
+        let generation = arm3(|v| {
+            v["model"] = json!("exact");
+            v["arm"]["dh"]["links"].as_array_mut().unwrap().truncate(1);
+            v["arm"]["dh"]["links"][0]["armature"] = json!(3.7);
+            v["motion"] = json!({ "quintic": { "from": [place], "to": [place], "duration": 30.0 } });
+            v["measure"]["tube"]["position_error"] = json!(0.2);
+            v["control"] = json!({ "law": law, "period": 0.001, "W": 200.0, "Pqq": 20.0, "Omega": 200.0,
+                "initial_error": { "position": 0.01 } });
+            if let Some(layer) = layer {
+                v["control"]["boundary_layer"] = json!(layer);
+            }
+        });
+        let guarantee = &generation.design().unwrap().guarantee;
+        let (published, last) = (guarantee.final_error[0], run(&generation).metrics.final_error[0]);
+        println!("{law} at {place}: {last:e} within {published:e}");
+        assert!(guarantee.holds, "{:?}", guarantee.reasons);
+        assert!(last > 0.0 && last <= published && published < 1e-10, "{law}: {last:e} {published:e}");
+        let module = generation.module().unwrap();
+        assert!(module.contains("once the effect of the initial errors has died away"));
+    }
+}
+
 #[test]
 fn a_soft_spring_does_not_blow_up_the_final_error() {
     // V alone charges the soft Pqq for all that the layer lets pass.

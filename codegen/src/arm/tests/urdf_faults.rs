@@ -177,7 +177,7 @@ fn faults_name_file_place_value_and_help() {
         "roots",
         &[("<link name=\"tool\"/>", "<link name=\"tool\"/><link name=\"table\"/>")],
         u(),
-        "falls apart: base, table are carried by no joint",
+        "arm.urdf: falls apart: base, table are carried by no joint",
     );
     refused(
         "loop",

@@ -28,12 +28,12 @@ const CASES: &[Case] = &[
         &["is -5", "above 0, in s"],
     ),
     case(
-        "a motion without end",
+        "a motion beyond all measure",
         |i| {
-            i.set("/motion/quintic/duration", json!(1e300));
+            i.link(0, "limits", json!({ "position": [-3, 3] })).set("/motion/quintic/to/0", json!(1e300));
         },
-        "motion.quintic.duration",
-        &["is 1e300", "at most 1e7, in s"],
+        "motion",
+        &["position of joint 1 (joint1) is ", "e", "s, outside its limits [-3, 3]"],
     ),
     case(
         "a waypoint without end",
@@ -213,6 +213,17 @@ const CASES: &[Case] = &[
         },
         "simulation.substeps",
         &["is 0", "at least 1"],
+    ),
+    case(
+        "a motion without end",
+        |i| {
+            i.link(0, "limits", json!({ "position": [-3, 3] })).set("/motion/quintic/duration", json!(1e300));
+        },
+        "motion",
+        &[
+            "position of joint 1 (joint1) may be without bound at t = 1.2",
+            "e298 s, outside its limits [-3, 3]",
+        ],
     ),
     case(
         "more rows than a module should hold",

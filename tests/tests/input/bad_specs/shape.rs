@@ -117,6 +117,14 @@ const CASES: &[Case] = &[
         "",
         &["line 1", "trailing", "mend the JSON"],
     ),
+    case(
+        "a key without end",
+        |i| {
+            i.spec["arm"]["k".repeat(5_000_000)] = json!(1);
+        },
+        "arm.kkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkkk…",
+        &["is a key of 5000000 characters", "write at most 1000"],
+    ),
     case("empty file", |i| i.text = Some(Vec::new()), "", &["line 1", "complete the file"]),
     case(
         "number out of range",

@@ -31,6 +31,19 @@ fn a_full_disk_is_told_of() {
     }
 }
 
+/// A device without end is read up to a limit, whatever field or argument names it.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_endless_file_is_refused() {
+    let spec = committed("arm3_xi1");
+    let spec = spec.to_str().expect("UTF-8");
+    for arguments in [&["inspect", "/dev/zero"][..], &["evaluate", spec, "--states", "/dev/zero"]] {
+        let output = finish(gramforge().args(arguments)).expect(2);
+        let told = "/dev/zero: cannot be read (it has more than 64 MiB); give ";
+        assert!(output.stderr.starts_with(told), "{arguments:?}: {}", output.stderr);
+    }
+}
+
 #[test]
 fn a_closed_pipe_ends_it_quietly() {
     let spec = committed("arm3_xi1");

@@ -12,6 +12,24 @@ fn warned(made: &gramforge::Generation, part: &str) {
     );
 }
 
+/// Nothing is known of the masses: the model is zero, and that is said.
+#[test]
+fn links_without_inertia_are_warned_of() {
+    let weightless = |name, from: &str, to: &str| {
+        let text = URDF.split(from).next().expect("a part").len();
+        let end = text + URDF[text..].find(to).expect("an end") + to.len();
+        Case::new(name).edit(URDF.get(text..end).expect("a part of the file"), "")
+    };
+    let last = weightless("no inertia behind j2", "<inertial>\n      <origin xyz=\"0.15", "</inertial>");
+    let made = last.run(last.text().as_bytes()).expect("an arm");
+    warned(&made, "arm.json: arm: joints that move no mass: j2; their torque is zero");
+    let none = last.edit(&URDF[URDF.find("<inertial>").unwrap()..URDF.find("</inertial>").unwrap() + 11], "");
+    let made = none.run(none.text().as_bytes()).expect("an arm");
+    warned(&made, "joints that move no mass: j1, j2;");
+    assert_eq!(made.torque().expect("a motion").error, [0.0, 0.0]);
+    assert!(!made.module().expect("a module").contains("e-3"), "no torque of 1e-322");
+}
+
 const LIMIT: &str = r#"<limit lower="-2" upper="2" effort="100" velocity="2"/>"#;
 const DYNAMICS: &str = r#"<dynamics damping="-1" friction="-0.5"/>"#;
 

@@ -169,6 +169,86 @@ fn deep_and_large_files_are_refused() {
 }
 
 #[test]
+fn numbers_of_things_beyond_any_robot_are_refused() {
+    let attributes: String = (0..50_000).map(|i| format!(" a{i}=\"1\"")).collect();
+    Case::new("attributes").with(&format!("<gadget{attributes}/>")).refused(
+        Some("<gadget"),
+        "",
+        &["an element with more than 1000 attributes", "; "],
+    );
+    let links: String = (0..100_000).map(|i| format!("<link name=\"x{i}\"/>\n")).collect();
+    Case::new("links").with(&links).refused(
+        Some("<link name=\"x1997\""),
+        "",
+        &["has 100003 elements <link>, and at most 2000 are read"],
+    );
+    let weld = |i: i32| {
+        format!("<joint name=\"w{i}\" type=\"fixed\"><parent link=\"l2\"/><child link=\"l2\"/></joint>\n")
+    };
+    Case::new("welds").with(&(0..3_000).map(weld).collect::<String>()).refused(
+        Some("<joint name=\"w1998\""),
+        "",
+        &["has 3002 elements <joint>, and at most 2000 are read"],
+    );
+}
+
+/// Each of a line of joints follows the next.
+#[test]
+fn a_long_line_of_followers_is_refused() {
+    let follower = |i: usize| {
+        format!(
+            "<link name=\"f{i}\"/><joint name=\"g{i}\" type=\"revolute\"><parent link=\"{}\"/><child link=\"f{i}\"/>\
+             <axis xyz=\"0 1 0\"/><limit lower=\"-2\" upper=\"2\"/>{}</joint>\n",
+            if i == 0 { "l2".to_string() } else { format!("f{}", i - 1) },
+            if i == 0 { String::new() } else { format!("<mimic joint=\"g{}\"/>", i - 1) }
+        )
+    };
+    let case =
+        Case::new("followers").with(&(0..1_900).map(follower).collect::<String>()).arm("tip", json!("f1899"));
+    let message = case.run(case.text().as_bytes()).map(|_| ()).expect_err("too long a line");
+    let first = message.lines().next().expect("a line");
+    assert!(
+        first.contains("joint[g102].mimic: follows itself, or another by way of more than 100 joints; "),
+        "{first}"
+    );
+    assert_eq!(message.lines().last(), Some("and 1698 more"));
+}
+
+#[test]
+fn names_and_text_that_cannot_be_meant_are_refused() {
+    for name in ["", "  "] {
+        Case::new("a joint without a name").edit("name=\"j2\"", format!("name=\"{name}\"")).refused(
+            Some("<joint name=\" "),
+            "joint.name",
+            &["is \"", "give the joint a name"],
+        );
+    }
+    Case::new("text behind").edit(END, format!("{END}\n\nand more")).refused(
+        Some("and more"),
+        "",
+        &["has text behind </robot>", "; "],
+    );
+}
+
+#[test]
+fn a_file_that_is_no_tree_is_told_with_a_line() {
+    let more: String = (0..30).map(|i| format!("<link name=\"part{i:02}\"/>\n")).collect();
+    Case::new("parts").with(&more).refused(
+        Some("<link name=\"part00\""),
+        "",
+        &["falls apart: base, part00, part01,", "part18 and 11 more are carried by no joint"],
+    );
+    let ring = "<link name=\"a\"/><link name=\"b\"/>\n\
+        <joint name=\"ab\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>\n\
+        <joint name=\"ba\" type=\"fixed\"><parent link=\"b\"/><child link=\"a\"/></joint>";
+    Case::new("a ring").with(ring).refused(
+        Some("<joint name=\"ab\""),
+        "",
+        &["has a loop: a, b cannot be reached from the root base"],
+    );
+}
+
+#[test]
 fn limits_that_a_robot_file_cannot_state_have_a_place() {
     let workspace = |name| Case::new(name).more("measure", json!("workspace"));
     workspace("no accelerations").refused(
