@@ -31,6 +31,7 @@ pub mod arm;
 pub mod body;
 pub mod bounds;
 pub mod check;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod config;
 pub mod design;
@@ -45,11 +46,15 @@ pub mod measure;
 pub mod motion;
 pub mod number;
 pub mod output;
+pub(crate) mod parallel;
 pub mod pipeline;
 pub mod progress;
 pub mod reduction;
+#[cfg(feature = "cli")]
 pub mod report;
+#[cfg(feature = "cli")]
 pub mod reproduce;
+#[cfg(any(feature = "simulate", test))]
 pub mod simulate;
 pub mod sines;
 pub mod spec;

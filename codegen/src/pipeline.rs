@@ -27,6 +27,7 @@ use crate::sines::Sines;
 use crate::spec::{LawSpec, MeasureSpec, RefitSpec, Spec};
 use crate::tolerance::Scale;
 use left::Left;
+#[cfg(feature = "cli")]
 pub(crate) use model::dictionary;
 use model::{Ask, Model, check_count};
 

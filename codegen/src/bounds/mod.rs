@@ -41,12 +41,11 @@ pub(crate) use sines::largest_growth;
 pub use sines::with_sines;
 pub use torque::{Met, Torque, peak_torque, separate_error, torque_error, torque_exceeds};
 
-use rayon::prelude::*;
-
 use crate::dynamics::{Size, Sizes};
 use crate::lagrangian::{Coefficient, Combination, Entry, Lagrangian};
 use crate::measure::Domain;
 use crate::motion::Motion;
+use crate::parallel::Parallelize;
 use crate::progress::{Progress, Silent, Stage};
 use crate::reduction::{Reduced, plus};
 use polynomial::Polynomial;

@@ -1,10 +1,9 @@
 //! The largest torque over a workspace, from below: what errors are measured by, never what limits are judged by.
 
-use rayon::prelude::*;
-
 use super::Rates;
 use crate::arm::Arm;
 use crate::dynamics::{gravity, inverse_dynamics, mass_matrix};
+use crate::parallel::Parallelize;
 use crate::spread::{Spread, corner, in_box};
 
 /// Positions looked at, besides the corners.

@@ -1,7 +1,5 @@
 //! What the left-out terms can cost in torque.
 
-use rayon::prelude::*;
-
 use super::rates::Rates;
 use super::region::{Region, reach};
 use super::residual::Residual;
@@ -13,6 +11,7 @@ use crate::dynamics::inverse_dynamics;
 use crate::lagrangian::Lagrangian;
 use crate::measure::Domain;
 use crate::motion::Motion;
+use crate::parallel::Parallelize;
 use crate::reduction::Reduced;
 
 /// Terms that all boxes of one joint may visit together.

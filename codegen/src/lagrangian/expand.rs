@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
-
 use super::Lagrangian;
 use super::coefficients::{Accuracy, Entry, Layers, distinct};
 use super::coupled;
@@ -11,6 +9,7 @@ use super::function::{Function, MAX_JOINTS, WHOLE};
 use super::transform::{Axis, grid_point, grid_size, transform};
 use crate::arm::{Arm, Body, JointKind, Uncertainty};
 use crate::dynamics::{Size, Sizes, gravity, mass_matrix, rounding};
+use crate::parallel::Parallelize;
 use crate::spread::Spread;
 
 /// Positions at which the rounding of the samples is looked at.

@@ -4,9 +4,11 @@
 
 mod hash;
 mod json;
+mod mismatch;
 mod named;
 mod plain;
 mod repair;
+mod schema;
 mod structure;
 mod wording;
 
@@ -21,7 +23,7 @@ use crate::spec::Spec;
 pub use hash::spec_hash;
 pub use named::Named;
 pub use plain::plain;
-pub use structure::schema;
+pub use schema::schema;
 
 /// A specification of the right shape and the files that it rests on.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,7 +115,7 @@ fn drafted(text: &str, path: &Path) -> Result<Draft, Error> {
         let loaded = Some(typed(value, path)?);
         return Ok(Draft { loaded, faults, lost: BTreeSet::new() });
     }
-    let Some(lost) = structure::repair(&mut value)? else { return Ok(nothing(faults)) };
+    let Some(lost) = repair::repair(&mut value)? else { return Ok(nothing(faults)) };
     // What cannot be read even so has faults enough.
     Ok(Draft { loaded: typed(value, path).ok(), faults, lost })
 }

@@ -1,7 +1,5 @@
 //! Reductions over dictionaries with products of functions.
 
-use rayon::prelude::*;
-
 use super::basis::Basis;
 use super::chebyshev::{fit, spanning_points};
 use super::minimax::{largest, residual};
@@ -9,6 +7,7 @@ use super::sparse::{Candidate, Group, Sparse, products};
 use super::{GramSchmidt, Samples, weight};
 use crate::lagrangian::{Function, Lagrangian, evaluate};
 use crate::measure::Measure;
+use crate::parallel::Parallelize;
 
 /// The functions among which a reduction chooses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,7 +7,7 @@ mod scale;
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
+use crate::parallel::Parallelize;
 
 pub use scale::Scale;
 

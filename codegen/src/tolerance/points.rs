@@ -1,9 +1,8 @@
 //! Positions at which torque errors are looked at.
 
-use rayon::prelude::*;
-
 use crate::lagrangian::{Combination, Lagrangian, evaluate};
 use crate::measure::Domain;
+use crate::parallel::Parallelize;
 use crate::reduction::Reduced;
 use crate::spread::{Spread, corner, in_box};
 

@@ -3,13 +3,12 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use super::fitting::{Form, Table};
 use super::moves::{Moves, united};
 use super::price::Prices;
 use super::ties::{exchanged, tied};
 use super::{Member, Problem, STEP, STRICTEST, start};
+use crate::parallel::Parallelize;
 use crate::reduction::sparse::{Candidate, Group, Sparse};
 
 /// Exchanges whose error is above the step's by no more than this factor are fitted again to the room that the other

@@ -13,10 +13,9 @@ mod ties;
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use super::sparse::{Candidate, Sparse, products};
 use crate::lagrangian::{Absolute, Lagrangian, evaluate};
+use crate::parallel::Parallelize;
 use fitting::Table;
 
 /// Where the descent begins: the torque error at the points as a fraction of the joint's torque.

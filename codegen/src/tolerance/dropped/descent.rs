@@ -1,13 +1,12 @@
 //! The descent: at each level of the error, what saves most for what it adds, as long as something is admitted.
 
-use rayon::prelude::*;
-
 use super::Member;
 use super::moves::moves;
 use super::refit::Kept;
 use super::table::Table;
 use crate::arm::{Arm, Inertial, Quantity};
 use crate::body::{Plan, cost, planned};
+use crate::parallel::Parallelize;
 
 /// The first level: the error at the points as a fraction of the joint's peak torque.
 const FIRST: f64 = 2e-4;
