@@ -21,6 +21,8 @@ mod motion;
 mod several;
 #[path = "bad_specs/shape.rs"]
 mod shape;
+#[path = "bad_specs/snapshots.rs"]
+mod snapshots;
 #[path = "bad_specs/uncertainty.rs"]
 mod uncertainty;
 #[path = "bad_specs/urdf.rs"]
