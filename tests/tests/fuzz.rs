@@ -141,16 +141,23 @@ fn damaged_robot_files_are_generated_or_refused() {
     });
 }
 
-/// The slowest input that was found: three seconds of an optimised build went into pieces of a spline that were looked at
-/// again in every round, though nothing was left to do for them.
+/// Found were: a spline of which three seconds of an optimised build went into pieces that were looked at again in every
+/// round, though nothing was left to do for them; sinusoids of 1e300 s, which took without end.
 #[test]
 fn inputs_that_were_found_are_judged() {
     let folder = folder();
     let mut slow = specifications::base(1);
     slow["arm"]["dh"]["links"][0]["limits"]["acceleration"] = Value::Null;
     slow["control"]["initial_error"]["velocity"] = serde_json::json!([0.0, 1e-18]);
-    let path = folder.path().join("found.json");
-    let (sender, done) = channel();
-    std::thread::spawn(move || sender.send(judged(&slow.to_string(), &path)));
-    assert_eq!(done.recv_timeout(LONGEST).expect("an end in good time"), Ok(true));
+    let mut endless = specifications::base(0);
+    endless["motion"] = serde_json::json!({ "sinusoids": {
+        "duration": 1e300, "offset": [0.1, 0.2],
+        "terms": [[{ "amplitude": 0.5, "frequency": 2.0, "phase": 0.1 }], []]
+    } });
+    for (spec, good) in [(slow, true), (endless, false)] {
+        let path = folder.path().join("found.json");
+        let (sender, done) = channel();
+        std::thread::spawn(move || sender.send(judged(&spec.to_string(), &path)));
+        assert_eq!(done.recv_timeout(LONGEST).expect("an end in good time"), Ok(good));
+    }
 }

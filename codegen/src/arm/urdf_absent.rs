@@ -1,7 +1,7 @@
 //! What stands in for the reading of URDF files where the feature `urdf` is off.
 
 use super::Arm;
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::load::Named;
 use crate::spec::ArmSpec;
 
@@ -10,7 +10,7 @@ pub(super) fn build(
     _: &ArmSpec,
     _: f64,
     named: &Named,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
     _: &mut Vec<String>,
 ) -> Option<Arm> {
     faults.push(

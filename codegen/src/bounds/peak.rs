@@ -3,8 +3,8 @@
 use super::Rates;
 use crate::arm::Arm;
 use crate::dynamics::{gravity, inverse_dynamics, mass_matrix};
+use crate::numerics::low_discrepancy::{LowDiscrepancy, corner, in_box};
 use crate::parallel::Parallelize;
-use crate::spread::{Spread, corner, in_box};
 
 /// Positions looked at, besides the corners.
 const POSITIONS: usize = 1024;
@@ -26,7 +26,7 @@ const ROUNDS: usize = 6;
 /// peak is no larger a part of the true one.
 pub fn workspace_peak_torque(arm: &Arm, limits: &[[f64; 2]], rates: &Rates) -> Vec<f64> {
     let n = arm.dof();
-    let spread = Spread::new(n);
+    let spread = LowDiscrepancy::new(n);
     let units: Vec<Vec<f64>> = (0..POSITIONS)
         .map(|index| spread.point(index))
         .chain((0..1 << n).map(|index| corner(index, n)))
@@ -123,7 +123,7 @@ mod tests {
     /// Another search: random positions, and from the best of them random steps that shrink.
     fn other(arm: &Arm, limits: &[[f64; 2]], rates: &Rates, i: usize) -> f64 {
         let n = arm.dof();
-        let spread = Spread::new(2 * n);
+        let spread = LowDiscrepancy::new(2 * n);
         let value = |unit: &[f64]| largest(arm, &in_box(limits, unit), rates)[i];
         let mut seen: Vec<(Vec<f64>, f64)> = (0..1500)
             .map(|index| {

@@ -1,11 +1,12 @@
 //! Motions: as many numbers as joints, times that run forwards, positions within limits.
 
-use super::shape::{has, length};
+use super::shape::length;
 use crate::arm::Arm;
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::load::Loaded;
-use crate::motion::{Motion, check_limits};
+use crate::motion::{LONGEST, Motion, check_limits};
 use crate::spec::MotionSpec;
+use crate::text::has;
 
 /// Most knots of a motion and most sinusoids of a joint: each stands in the module.
 const MOST_KNOTS: usize = 20_000;
@@ -18,7 +19,7 @@ pub(super) fn check(
     loaded: &Loaded,
     arm: Option<&Arm>,
     joints: Option<usize>,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) -> Option<Motion> {
     let before = faults.count();
     fields(spec, joints, faults);
@@ -33,12 +34,12 @@ pub(super) fn check(
 }
 
 /// Checks the fields; a CSV table is checked where it is read.
-fn fields(motion: &MotionSpec, joints: Option<usize>, faults: &mut Faults) {
+fn fields(motion: &MotionSpec, joints: Option<usize>, faults: &mut Diagnostics) {
     match motion {
         MotionSpec::Quintic { from, to, duration } => {
             length("motion.quintic.from", from.len(), joints, faults);
             length("motion.quintic.to", to.len(), joints, faults);
-            positive("motion.quintic.duration", *duration, faults);
+            seconds("motion.quintic.duration", *duration, faults);
         }
         MotionSpec::Waypoints { times, positions } => waypoints(times, positions, joints, faults),
         MotionSpec::Sinusoids { offset, terms, duration } => {
@@ -47,7 +48,7 @@ fn fields(motion: &MotionSpec, joints: Option<usize>, faults: &mut Faults) {
             for (i, terms) in terms.iter().enumerate() {
                 at_most(&format!("motion.sinusoids.terms[{i}]"), terms.len(), MOST_SINUSOIDS, faults);
             }
-            positive("motion.sinusoids.duration", *duration, faults);
+            seconds("motion.sinusoids.duration", *duration, faults);
         }
         MotionSpec::Csv { file } if file.is_empty() => {
             faults.push(
@@ -60,7 +61,7 @@ fn fields(motion: &MotionSpec, joints: Option<usize>, faults: &mut Faults) {
     }
 }
 
-fn waypoints(times: &[f64], positions: &[Vec<f64>], joints: Option<usize>, faults: &mut Faults) {
+fn waypoints(times: &[f64], positions: &[Vec<f64>], joints: Option<usize>, faults: &mut Diagnostics) {
     let field = "motion.waypoints.times";
     at_most(field, times.len(), MOST_KNOTS, faults);
     if times.len() < 2 {
@@ -77,6 +78,10 @@ fn waypoints(times: &[f64], positions: &[Vec<f64>], joints: Option<usize>, fault
             faults.push(format!("{field}[{}]", i + 1), problem, "let the times rise");
         }
     }
+    if let Some(last) = times.last().filter(|last| **last > LONGEST) {
+        let field = format!("{field}[{}]", times.len() - 1);
+        faults.push(field, format!("is {last:e}"), format!("write at most {LONGEST:e}, in s"));
+    }
     if positions.len() != times.len() {
         let problem = has(positions.len());
         faults.push(
@@ -90,14 +95,16 @@ fn waypoints(times: &[f64], positions: &[Vec<f64>], joints: Option<usize>, fault
     }
 }
 
-fn at_most(field: &str, found: usize, most: usize, faults: &mut Faults) {
+fn at_most(field: &str, found: usize, most: usize, faults: &mut Diagnostics) {
     if found > most {
         faults.push(field, has(found), format!("write at most {most}: each stands in the module"));
     }
 }
 
-fn positive(field: &str, value: f64, faults: &mut Faults) {
+fn seconds(field: &str, value: f64, faults: &mut Diagnostics) {
     if value <= 0.0 {
         faults.push(field, format!("is {value}"), "write a number above 0, in s");
+    } else if value > LONGEST {
+        faults.push(field, format!("is {value:e}"), format!("write at most {LONGEST:e}, in s"));
     }
 }

@@ -9,7 +9,7 @@ use super::Graph;
 use super::node::{Name, Node, NodeId, Variable};
 use crate::dynamics::Scalar;
 use crate::lagrangian::{MAX_JOINTS, WHOLE};
-use crate::sines::Sines;
+use crate::trig::Trig;
 
 /// Collects the nodes of a graph under construction.
 #[derive(Debug, Default)]
@@ -103,7 +103,7 @@ impl Builder {
             nodes: Vec::new(),
             names: Vec::new(),
             outputs: Vec::new(),
-            sines: Sines::default(),
+            sines: Trig::default(),
             parts: parts.unwrap_or(WHOLE),
         };
         for (id, (node, name)) in nodes.into_iter().zip(names).enumerate() {

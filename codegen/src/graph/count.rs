@@ -27,7 +27,7 @@ impl Operations {
     }
 
     /// What code is compared by: multiplications and additions, with every pair of sine and cosine as [`TRIG_PAIR`].
-    pub fn price(&self) -> usize {
+    pub fn cost(&self) -> usize {
         self.arithmetic() + TRIG_PAIR * self.trig_pairs
     }
 }

@@ -9,8 +9,8 @@ use super::function::{Function, MAX_JOINTS, WHOLE};
 use super::transform::{Axis, grid_point, grid_size, transform};
 use crate::arm::{Arm, Body, JointKind, Uncertainty};
 use crate::dynamics::{Size, Sizes, gravity, mass_matrix, rounding};
+use crate::numerics::low_discrepancy::LowDiscrepancy;
 use crate::parallel::Parallelize;
-use crate::spread::Spread;
 
 /// Positions at which the rounding of the samples is looked at.
 const LOOKED_AT: usize = 48;
@@ -147,7 +147,7 @@ fn expanded(arm: &Arm) -> Vec<(Expansion, Accuracy)> {
 /// The most that entries of D and G were found to round by.
 fn noise(arm: &Arm) -> (Vec<Vec<f64>>, Vec<f64>) {
     let n = arm.dof();
-    let spread = Spread::new(n);
+    let spread = LowDiscrepancy::new(n);
     let at = |index: usize| {
         let angle = |u: f64| std::f64::consts::PI * (2.0 * u - 1.0);
         let kinds = arm.moving().iter().map(|joint| joint.kind);

@@ -5,13 +5,13 @@ use serde_json::Value;
 use super::mismatch::{Kind, Mismatch, Place, mismatches};
 use super::schema::schema;
 use super::wording::{describe, either, member, nearest, options, quoted, resolve, show, tag};
-use crate::error::{Error, Faults};
+use crate::error::{Diagnostics, Error};
 
 /// Adds a fault for every place where `value` has not the shape of a [`crate::spec::Spec`].
 ///
 /// # Errors
 /// [`Error::Internal`] where the schema itself is broken.
-pub(super) fn check(value: &Value, faults: &mut Faults) -> Result<(), Error> {
+pub(super) fn check(value: &Value, faults: &mut Diagnostics) -> Result<(), Error> {
     let schema = schema()?;
     Explainer { schema, faults }.all(&mismatches(schema, value));
     Ok(())
@@ -19,7 +19,7 @@ pub(super) fn check(value: &Value, faults: &mut Faults) -> Result<(), Error> {
 
 struct Explainer<'a> {
     schema: &'a Value,
-    faults: &'a mut Faults,
+    faults: &'a mut Diagnostics,
 }
 
 impl Explainer<'_> {
@@ -56,8 +56,8 @@ impl Explainer<'_> {
             Kind::Count => {
                 let count = value.as_array().map_or(0, Vec::len);
                 let noun = if count == 1 { "entry" } else { "entries" };
-                let mend = format!("write {}", wanted());
-                self.faults.push(field, format!("has {count} {noun}: {}", show(value)), mend);
+                let help = format!("write {}", wanted());
+                self.faults.push(field, format!("has {count} {noun}: {}", show(value)), help);
             }
             Kind::Below(limit) => {
                 let wanted = format!("{} of at least {limit}", wanted());
@@ -74,11 +74,11 @@ impl Explainer<'_> {
     fn unknown(&mut self, field: &str, part: &Value, names: &[&str]) {
         let known: Vec<String> = properties(part).map(str::to_string).collect();
         for name in names {
-            let mend = match nearest(name, properties(part)) {
+            let help = match nearest(name, properties(part)) {
                 Some(near) => format!("did you mean `{near}`? The fields here are {}", quoted(&known)),
                 None => format!("remove it; the fields here are {}", quoted(&known)),
             };
-            self.faults.push(member(field, name), "is not a field", mend);
+            self.faults.push(member(field, name), "is not a field", help);
         }
     }
 
@@ -87,11 +87,11 @@ impl Explainer<'_> {
         let wanted = part.get("properties").and_then(|fields| fields.get(name)).unwrap_or(&Value::Null);
         let meaning = wanted.get("description").and_then(Value::as_str).unwrap_or_default();
         let meaning = meaning.split("\n\n").next().unwrap_or_default().replace('\n', " ");
-        let mut mend = format!("write {}", describe(self.schema, wanted));
+        let mut help = format!("write {}", describe(self.schema, wanted));
         if !meaning.is_empty() {
-            mend.push_str(&format!(" ({})", meaning.trim_end_matches('.')));
+            help.push_str(&format!(" ({})", meaning.trim_end_matches('.')));
         }
-        self.faults.push(member(field, name), "is missing", mend);
+        self.faults.push(member(field, name), "is missing", help);
     }
 
     /// A value that is none of the variants of the enumeration `part`.

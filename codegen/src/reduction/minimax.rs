@@ -3,9 +3,9 @@
 //! The bounds (9) and (10) are maxima, so the least squares of (4) is the wrong last step.
 
 use super::Reduced;
-use super::basis::Basis;
-use super::chebyshev::{fit, spanning_points};
 use crate::lagrangian::{Combination, Lagrangian, evaluate};
+use crate::numerics::basis::Basis;
+use crate::numerics::chebyshev::{fit, spanning_points};
 use crate::parallel::Parallelize;
 
 /// Residuals below this fraction of the coefficient are rounding: nothing to refit.

@@ -1,11 +1,11 @@
 //! The parameters that a simplified model would have for other inertial parameters of the arm, section 3.3 of the report.
 
 use super::Reduced;
-use super::basis::Basis;
-use super::chebyshev::{fit, spanning_points};
 use super::minimax::{Columns, ROUNDING, combination, largest};
-use super::samples::dot;
 use crate::lagrangian::{Combination, Lagrangian};
+use crate::numerics::basis::Basis;
+use crate::numerics::chebyshev::{fit, spanning_points};
+use crate::numerics::vector::dot;
 use crate::parallel::Parallelize;
 use crate::spec::RefitSpec;
 

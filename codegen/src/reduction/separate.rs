@@ -1,11 +1,11 @@
 //! Mode `separate`: every coefficient picks ξ functions of its own, the closing remark of section 2 of the report.
 
-use super::basis::Basis;
-use super::chebyshev::{fit, spanning_points};
 use super::minimax::{Columns, ROUNDING, combination, largest, residual};
-use super::{GramSchmidt, Reduced, Samples};
+use super::{GramSchmidt, Kind, Reduced, Samples};
+use crate::domain::Measure;
 use crate::lagrangian::{Combination, Lagrangian};
-use crate::measure::Measure;
+use crate::numerics::basis::Basis;
+use crate::numerics::chebyshev::{fit, spanning_points};
 use crate::parallel::Parallelize;
 
 /// Where the model has more functions than this, a coefficient chooses among those of its own exact form alone.
@@ -40,8 +40,7 @@ pub fn separate(lagrangian: &Lagrangian, measure: &Measure, functions: usize) ->
         combinations,
         simplified,
         variations: Vec::new(),
-        sparse: None,
-        dropped: None,
+        kind: Kind::Expanded,
     }
 }
 

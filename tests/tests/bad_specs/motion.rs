@@ -28,6 +28,23 @@ const CASES: &[Case] = &[
         &["is -5", "above 0, in s"],
     ),
     case(
+        "a motion without end",
+        |i| {
+            i.set("/motion/quintic/duration", json!(1e300));
+        },
+        "motion.quintic.duration",
+        &["is 1e300", "at most 1e7, in s"],
+    ),
+    case(
+        "a waypoint without end",
+        |i| {
+            let positions = vec![vec![0.0, 0.3, -1.2]; 3];
+            i.set("/motion", json!({ "waypoints": { "times": [0.0, 1.0, 2e7], "positions": positions } }));
+        },
+        "motion.waypoints.times[2]",
+        &["is 2e7", "at most 1e7, in s"],
+    ),
+    case(
         "outside the position limits",
         |i| {
             i.link(1, "limits", json!({ "position": [-1.0, 1.0] }));
