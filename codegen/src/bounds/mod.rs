@@ -40,6 +40,7 @@ pub use rates::Rates;
 pub use recursion::{beside_expansion, recursion, recursion_rounding, rounded_angles};
 pub use region::position_bound;
 pub(crate) use rounding::{percent_up, printed_down, printed_up, published, vanishing};
+use serde::{Deserialize, Serialize};
 pub use torque::{Met, Torque, peak_torque, separate_error, torque_error, torque_exceeds};
 pub(crate) use torque_scale::SCATTERED;
 pub use torque_scale::TorqueScale;
@@ -109,7 +110,7 @@ impl Effort {
 }
 
 /// A bound on one coefficient, and how sharp it is.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
     /// |α_m − α̂_m| exceeds this nowhere in the domain, evaluation in f64 included.
     pub bound: f64,
@@ -272,7 +273,7 @@ fn vertex(active: &[usize], lagrangian: &Lagrangian, index: usize) -> Vec<f64> {
 }
 
 /// Element-by-element bounds (26)–(28) over a domain, zero where the model is exact.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bounds {
     /// ΔD, n×n.
     pub d: Vec<Vec<f64>>,

@@ -1,5 +1,7 @@
 //! What the left-out terms can cost in torque.
 
+use serde::{Deserialize, Serialize};
+
 use super::rates::Rates;
 use super::region::{Region, position_bound};
 use super::residual::Residual;
@@ -28,7 +30,7 @@ const TOLERANCE: f64 = 0.02;
 const INSTANTS: u32 = 1000;
 
 /// Torque errors and what they are compared with.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Torque {
     /// Certified bound on the torque error by joint, N·m or N, for rates up to the motion's own, over a workspace up to
     /// the joints' limits.

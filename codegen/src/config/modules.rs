@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use super::Output;
+use super::made::Made;
 use crate::emit::spoilt;
 use crate::error::Error;
 use crate::output::{Wanted, write_all};
@@ -38,15 +38,20 @@ impl Modules {
         Self { folder: folder.to_path_buf(), kept, old }
     }
 
-    /// Writes `outputs`, and removes what no specification gives any more.
+    /// `OUT_DIR`, where the folder lies in it.
+    pub fn kept(&self) -> Option<&Path> {
+        self.kept.as_deref()
+    }
+
+    /// Writes the modules of `made`, and removes what no specification gives any more.
     ///
     /// # Errors
     /// As [`write_all`].
-    pub fn publish(&self, outputs: &[Output]) -> Result<(), Error> {
-        let modules: Vec<Wanted> = outputs.iter().map(Output::wanted).collect();
+    pub fn publish(&self, made: &[Made]) -> Result<(), Error> {
+        let modules: Vec<Wanted> = made.iter().map(Made::wanted).collect();
         let Some(out_dir) = &self.kept else { return write_all(&modules).map(drop) };
         let mut written = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
-        written.extend(outputs.iter().filter_map(|output| relative(out_dir, &output.path)));
+        written.extend(made.iter().filter_map(|made| relative(out_dir, &made.module)));
         // Listed before they are there and until they are gone: an interruption must not let one be forgotten.
         let list = out_dir.join(LIST);
         let all = text(self.old.union(&written));

@@ -20,6 +20,7 @@ use serde_json::Value;
 use crate::error::{Diagnostics, Error};
 use crate::spec::Spec;
 
+pub(crate) use hash::canonical;
 pub use hash::spec_hash;
 pub use named::Named;
 pub use plain::plain;

@@ -65,6 +65,61 @@ fn no_module_outlives_its_specification() {
     assert!(!out_dir.join("other.rs").exists());
 }
 
+/// The entries of the cache whose names begin with `kind`.
+fn kept(package: &Package, kind: &str) -> Vec<std::path::PathBuf> {
+    let entries = fs::read_dir(package.out_dir().join("gramforge-cache")).expect("a cache");
+    let own = |path: &std::path::PathBuf| {
+        path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(kind))
+    };
+    entries.map(|entry| entry.expect("an entry").path()).filter(own).collect()
+}
+
+#[test]
+fn what_is_kept_is_what_would_be_made() {
+    let package = arm("gramforge-scratch-kept");
+    let module = package.out_dir().join("arm.rs");
+    let again = |period: f64| {
+        package.write("specs/arm.json", &spec("arm", "arm.urdf", period));
+        assert_eq!(package.run().good(), format!("{period}\n"));
+        fs::read_to_string(&module).expect("a module")
+    };
+    let first = again(0.001);
+    let (models, modules) = (kept(&package, "model-"), kept(&package, "module-"));
+    assert_eq!((models.len(), modules.len()), (1, 1), "{models:?} {modules:?}");
+
+    // Another period changes the module, and nothing that the model follows from.
+    let second = again(0.002);
+    assert_ne!(first, second);
+    assert_eq!(kept(&package, "model-"), models);
+    assert_ne!(kept(&package, "module-"), modules);
+    assert_eq!(again(0.001), first);
+
+    // An entry is read: with a right hash it is believed, with a wrong one it is made anew.
+    let entry = &kept(&package, "module-")[0];
+    let text = fs::read_to_string(entry).expect("an entry");
+    let body = text.split_once('\n').expect("a hash").1;
+    fs::write(entry, format!("{}\n{}", "0".repeat(64), body.replace("0.001", "0.003"))).expect("written");
+    assert_eq!(again(0.001), first);
+    fs::write(&models[0], "").expect("written");
+    assert_eq!(again(0.002), second);
+    let entry = &kept(&package, "module-")[0];
+    let body = "{\"module\":\"compile_error!(\\\"kept\\\");\",\"warnings\":[]}";
+    // SHA-256 of `body`.
+    let hash = "6c73b8ed8c41889faf84069ca6f85300a57c2b5cb91fc963dab5a01597250a36";
+    fs::write(entry, format!("{hash}\n{body}")).expect("written");
+    package.write("specs/arm.json", &spec("arm", "arm.urdf", 0.002));
+    package.run().bad(&["kept"]);
+
+    // Without the cache, and with a robot file that has changed, all is made anew.
+    package.build_script(
+        "gramforge::Config::new().spec(\"specs/arm.json\").cache(false).run_in_build_script();",
+    );
+    assert_eq!(again(0.002), second);
+    package.specs(&["specs/arm.json"]);
+    package.write("specs/arm.urdf", &urdf("joint1", "link1", 2.0));
+    assert_ne!(again(0.002), second);
+}
+
 #[test]
 fn two_specifications_stand_and_fall_together() {
     let package = arm("gramforge-scratch-two");

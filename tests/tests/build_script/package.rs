@@ -96,9 +96,12 @@ impl Package {
     /// Writes the build script of these specifications.
     pub fn specs(&self, specs: &[&str]) {
         let calls: String = specs.iter().map(|spec| format!(".spec({spec:?})")).collect();
-        let script =
-            format!("fn main() {{\n    gramforge::Config::new(){calls}.run_in_build_script();\n}}\n");
-        self.write("build.rs", &script);
+        self.build_script(&format!("gramforge::Config::new(){calls}.run_in_build_script();"));
+    }
+
+    /// Writes a build script that runs `statement`.
+    pub fn build_script(&self, statement: &str) {
+        self.write("build.rs", &format!("fn main() {{\n    {statement}\n}}\n"));
     }
 
     /// Writes a program that includes these modules and prints the control period of each.

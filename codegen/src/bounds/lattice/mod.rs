@@ -34,16 +34,15 @@ pub(super) fn range(parts: &[Part], limits: &[[f64; 2]], stop: &Stop) -> Range {
     let mut order: Vec<usize> = (0..parts.len()).collect();
     order.sort_by(|&a, &b| caps[a].total_cmp(&caps[b]).then(a.cmp(&b)));
     let mut dust = 0.0;
-    let mut simplified_arm = BTreeSet::new();
+    let mut dropped = BTreeSet::new();
     for part in order {
         if dust + caps[part] > DUST * ceiling {
             break;
         }
         dust += caps[part];
-        simplified_arm.insert(part);
+        dropped.insert(part);
     }
-    let seen =
-        parts.iter().enumerate().filter(|(part, _)| !simplified_arm.contains(part)).map(|(_, part)| part);
+    let seen = parts.iter().enumerate().filter(|(part, _)| !dropped.contains(part)).map(|(_, part)| part);
     let search = Search::new(Sum::new(seen), limits);
     let range = search.run(&Stop { limit: stop.limit.map(|limit| limit - dust), ..*stop });
     Range { found: range.found, upper: ((range.upper + dust) * MORE).min(ceiling) }
