@@ -217,11 +217,9 @@ fn a_long_line_of_followers_is_refused() {
 #[test]
 fn names_and_text_that_cannot_be_meant_are_refused() {
     for name in ["", "  "] {
-        Case::new("a joint without a name").edit("name=\"j2\"", format!("name=\"{name}\"")).refused(
-            Some("<joint name=\" "),
-            "joint.name",
-            &["is \"", "give the joint a name"],
-        );
+        let case = Case::new("a joint without a name").edit("name=\"j2\"", format!("name=\"{name}\""));
+        let at = format!("<joint name=\"{name}\"");
+        case.refused(Some(&at), "joint.name", &["is \"", "give the joint a name"]);
     }
     Case::new("text behind").edit(END, format!("{END}\n\nand more")).refused(
         Some("and more"),
