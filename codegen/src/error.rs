@@ -142,18 +142,29 @@ pub struct Stale {
 
 /// Why a stage could not deliver.
 #[non_exhaustive]
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug)]
 pub enum Error {
     /// The input is at fault: exit code 2.
-    #[error("{}", list(.0))]
     Input(Vec<Diagnostic>),
     /// Generated files on disk differ from what their specifications give: exit code 1.
-    #[error("{}", stale(.0))]
     Stale(Vec<Stale>),
     /// A defect of Gramforge itself: exit code 3.
-    #[error("internal error: {}; please report it with the specification", escaped(.0))]
     Internal(String),
 }
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Error::Input(faults) => f.write_str(&list(faults)),
+            Error::Stale(files) => f.write_str(&stale(files)),
+            Error::Internal(what) => {
+                write!(f, "internal error: {}; please report it with the specification", escaped(what))
+            }
+        }
+    }
+}
+
+impl std::error::Error for Error {}
 
 impl Error {
     /// The process exit code that stands for this error: 1 check failed, 2 bad input, 3 internal.

@@ -25,6 +25,7 @@ mod bounds;
 mod cache;
 mod check;
 mod choose;
+#[cfg(feature = "cli")]
 mod cli;
 mod config;
 mod control;
@@ -40,11 +41,15 @@ mod motion;
 mod number;
 mod numerics;
 mod output;
+mod parallel;
 mod pipeline;
 mod progress;
 mod reduction;
+#[cfg(feature = "cli")]
 mod report;
+#[cfg(feature = "cli")]
 mod reproduce;
+#[cfg(any(feature = "simulate", test))]
 mod simulate;
 pub mod spec;
 mod text;
@@ -69,7 +74,11 @@ pub mod internals {
     }
 
     open! {
-        arm bounds check choose cli control domain dynamics emit error graph lagrangian model motion number numerics output
-        pipeline progress reduction report reproduce simulate text torque trig
+        arm bounds check choose control domain dynamics emit error graph lagrangian model motion number numerics output
+        pipeline progress reduction text torque trig
     }
+    #[cfg(feature = "cli")]
+    open! { cli report reproduce }
+    #[cfg(any(feature = "simulate", test))]
+    open! { simulate }
 }

@@ -12,6 +12,7 @@ mod threads;
 mod verdict;
 
 pub use generation::Generation;
+#[cfg(feature = "cli")]
 pub(crate) use modelled::dictionary;
 pub(crate) use proved::keep;
 

@@ -92,7 +92,7 @@ mod tests {
     use std::collections::BTreeMap;
     use std::path::Path;
 
-    use rayon::prelude::*;
+    use crate::parallel::Parallelize;
 
     use super::*;
     use crate::Generation;

@@ -11,7 +11,6 @@ mod model;
 mod motion;
 mod uncertainty;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use arm::{
@@ -28,7 +27,8 @@ pub use uncertainty::{
 };
 
 /// A whole specification file.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Spec {
     /// Name of the generated module and file: lower-case letters, digits and underscores.
@@ -62,7 +62,8 @@ pub struct Spec {
 }
 
 /// A number for every joint, or one for each.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub enum VectorSpec {
     /// The same for every joint.
@@ -78,7 +79,8 @@ impl Default for VectorSpec {
 }
 
 /// A multiple of the identity, a diagonal, or a full matrix by rows.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub enum MatrixSpec {
     /// A multiple of the identity.
@@ -90,7 +92,8 @@ pub enum MatrixSpec {
 }
 
 /// How `simulate` runs.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SimulationSpec {
     /// Simulated time, s. Default: the motion's duration.

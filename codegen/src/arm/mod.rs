@@ -8,12 +8,19 @@ mod drive;
 mod frames;
 mod inertial;
 mod intervals;
+// URDF files alone have joints that follow others, and lines.
+#[cfg_attr(not(feature = "urdf"), allow(dead_code))]
 mod linkage;
 mod massless;
+#[cfg_attr(not(feature = "urdf"), allow(dead_code))]
 mod place;
 mod round;
 mod transform;
 mod uncertainty;
+#[cfg(feature = "urdf")]
+mod urdf;
+#[cfg(not(feature = "urdf"))]
+#[path = "urdf_absent.rs"]
 mod urdf;
 mod validate;
 

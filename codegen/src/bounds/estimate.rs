@@ -1,12 +1,11 @@
 //! Equation (11): a quick estimate of the bounds, not a proof.
 
-use rayon::prelude::*;
-
 use super::polynomial::Scratch;
 use super::region::Region;
 use super::residuals;
 use crate::domain::Domain;
 use crate::lagrangian::Lagrangian;
+use crate::parallel::Parallelize;
 use crate::reduction::Reduced;
 
 /// Instants of the motion.

@@ -48,11 +48,10 @@ pub use torque_scale::TorqueScale;
 pub(crate) use trig::largest_growth;
 pub use trig::with_sines;
 
-use rayon::prelude::*;
-
 use crate::domain::Domain;
 use crate::dynamics::{Size, Sizes};
 use crate::lagrangian::{Coefficient, Combination, Entry, Lagrangian};
+use crate::parallel::Parallelize;
 use crate::progress::{Progress, Silent, Stage};
 use crate::reduction::{Reduced, plus};
 use polynomial::Polynomial;

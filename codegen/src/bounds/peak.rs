@@ -1,11 +1,10 @@
 //! The largest torque over a workspace, from below: what errors are measured by, never what limits are judged by.
 
-use rayon::prelude::*;
-
 use super::Rates;
 use crate::arm::Arm;
 use crate::dynamics::{gravity, inverse_dynamics, mass_matrix};
 use crate::numerics::low_discrepancy::{LowDiscrepancy, corner, in_box};
+use crate::parallel::Parallelize;
 
 /// Positions looked at, besides the corners.
 const POSITIONS: usize = 1024;

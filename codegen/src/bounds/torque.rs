@@ -1,6 +1,5 @@
 //! What the left-out terms can cost in torque.
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::rates::Rates;
@@ -14,6 +13,7 @@ use crate::domain::Domain;
 use crate::dynamics::inverse_dynamics;
 use crate::lagrangian::Lagrangian;
 use crate::motion::Motion;
+use crate::parallel::Parallelize;
 use crate::reduction::Reduced;
 
 /// Terms that all boxes of one joint may visit together.

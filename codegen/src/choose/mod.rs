@@ -7,7 +7,7 @@ pub(crate) mod sparse;
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
+use crate::parallel::Parallelize;
 
 use crate::arm::Arm;
 use crate::bounds::{SCATTERED, TorqueScale, position_bound};

@@ -1,10 +1,9 @@
 //! Positions at which torque errors are looked at.
 
-use rayon::prelude::*;
-
 use crate::domain::Domain;
 use crate::lagrangian::{Combination, Lagrangian, evaluate};
 use crate::numerics::low_discrepancy::{LowDiscrepancy, corner, in_box};
+use crate::parallel::Parallelize;
 use crate::reduction::Reduced;
 
 /// Points of the domain at which the family of models is fitted, besides corners.

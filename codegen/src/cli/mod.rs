@@ -54,7 +54,7 @@ pub fn run() -> ExitCode {
         Some(Command::Generate(command)) => command.run(),
         Some(Command::Simulate(command)) => command.run(),
         Some(Command::Reproduce(command)) => command.run(),
-        Some(Command::Schema) => json(&crate::load::schema()),
+        Some(Command::Schema) => crate::load::schema().and_then(json),
     };
     match outcome.and_then(|text| print::result(&text)) {
         Ok(()) => ExitCode::SUCCESS,

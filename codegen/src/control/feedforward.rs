@@ -4,13 +4,12 @@
 //! The recursion runs on intervals of time: with the ranges of q_d, q̇_d, q̈_d and the jerk over a piece of the motion it
 //! gives ranges of τ and of dτ/dt. Pieces are halved until the largest bound is near the largest value seen.
 
-use rayon::prelude::*;
-
 use crate::arm::{Arm, Uncertainty};
 use crate::dynamics::{Jet, enclosed_positions, passivity_torque};
 use crate::motion::{Motion, Span};
 use crate::number::{decimal, scientific};
 use crate::numerics::Interval;
+use crate::parallel::Parallelize;
 
 /// Pieces of the motion to begin with.
 const PIECES: u32 = 32;

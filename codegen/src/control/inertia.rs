@@ -6,8 +6,8 @@
 //! box, with diag(g) added or subtracted; subdivision does the rest. R also holds what rounding does to D and to its
 //! slopes, by the recursion over norms. What is made of D⁻ and D⁺ must be a proof: see [`super::verified`].
 
+use crate::parallel::Parallelize;
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 use crate::arm::{Arm, Uncertainty};
 use crate::bounds::{Bounds, recursion_rounding};

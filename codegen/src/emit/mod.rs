@@ -11,6 +11,7 @@ mod type_name;
 
 pub use type_name::type_name;
 
+#[cfg(feature = "cli")]
 pub(crate) use docs::{
     domain as domain_in_words, functions, met as met_in_words, rates as rates_in_words,
     torque as torque_in_words,

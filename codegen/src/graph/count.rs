@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{Graph, Node};
@@ -11,7 +10,7 @@ use super::{Graph, Node};
 pub const TRIG_PAIR: usize = 12;
 
 /// Operations of one evaluation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Operations {
     /// Multiplications.
     pub mul: usize,

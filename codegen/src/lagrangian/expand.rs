@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
-
 use super::Lagrangian;
 use super::coefficients::{Accuracy, Entry, Layers, distinct};
 use super::coupled;
@@ -12,6 +10,7 @@ use super::transform::{Axis, grid_point, grid_size, transform};
 use crate::arm::{Arm, Body, JointKind, Uncertainty};
 use crate::dynamics::{Size, Sizes, gravity, mass_matrix, rounding};
 use crate::numerics::low_discrepancy::LowDiscrepancy;
+use crate::parallel::Parallelize;
 
 /// Positions at which the rounding of the samples is looked at.
 const LOOKED_AT: usize = 48;

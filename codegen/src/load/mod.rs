@@ -4,10 +4,12 @@
 
 mod hash;
 mod json;
+mod mismatch;
 mod named;
 mod plain;
 mod reader;
 mod repair;
+mod schema;
 mod structure;
 mod wording;
 
@@ -24,7 +26,7 @@ pub use hash::spec_hash;
 pub use named::Named;
 pub use plain::plain;
 pub(crate) use reader::text as read_text;
-pub use structure::schema;
+pub use schema::schema;
 
 /// A specification of the right shape and the files that it rests on.
 #[derive(Clone, Debug, PartialEq)]
@@ -116,7 +118,7 @@ fn drafted(text: &str, path: &Path) -> Result<Draft, Error> {
         let loaded = Some(typed(value, path)?);
         return Ok(Draft { loaded, faults, lost: BTreeSet::new() });
     }
-    let Some(lost) = structure::repair(&mut value)? else { return Ok(nothing(faults)) };
+    let Some(lost) = repair::repair(&mut value)? else { return Ok(nothing(faults)) };
     // What cannot be read even so has faults enough.
     Ok(Draft { loaded: typed(value, path).ok(), faults, lost })
 }

@@ -4,41 +4,44 @@
 
 use std::collections::BTreeSet;
 
-use jsonschema::error::ValidationErrorKind as Kind;
-use jsonschema::{ValidationError, Validator};
 use serde_json::{Value, json};
 
-use super::structure::{Explainer, meant};
+use super::mismatch::{Kind, Mismatch, mismatches};
+use super::schema::schema;
+use super::structure::{meant, properties};
 use super::wording::nearest;
+use crate::error::Error;
 
 /// Rounds of repair: a field that was taken for another may be of the wrong type in turn.
 const ROUNDS: usize = 4;
 
 /// Brings `value` into the shape of a specification; the sections that had to be left out, or `None` where that does not
 /// help.
-pub(super) fn repaired(value: &mut Value, validator: &Validator, schema: &Value) -> Option<BTreeSet<String>> {
+///
+/// # Errors
+/// [`Error::Internal`] where the schema itself is broken.
+pub(super) fn repair(value: &mut Value) -> Result<Option<BTreeSet<String>>, Error> {
+    let schema = schema()?;
     let mut lost = BTreeSet::new();
     for _ in 0..ROUNDS {
         let mut changes = Vec::new();
-        for error in validator.iter_errors(value) {
-            gather(&error, schema, &mut changes);
-        }
+        mismatches(schema, value).iter().for_each(|mismatch| gather(mismatch, &mut changes));
         if changes.is_empty() {
-            return Some(lost);
+            return Ok(Some(lost));
         }
         for change in changes {
             change.make(value, &mut lost);
         }
     }
-    validator.is_valid(value).then_some(lost)
+    Ok(mismatches(schema, value).is_empty().then_some(lost))
 }
 
 /// A change of the value at a JSON pointer.
 enum Change {
     /// Removes the member `from`, or calls it `to`.
     Rename { object: String, from: String, to: Option<String> },
-    /// Leaves out the section in which the pointer lies.
-    Cut { place: String },
+    /// Leaves out this section; without one, puts in what a specification cannot do without.
+    Cut { section: Option<String> },
 }
 
 impl Change {
@@ -51,20 +54,19 @@ impl Change {
                     map.insert(to, moved);
                 }
             }
-            Self::Cut { place } => {
+            Self::Cut { section } => {
                 let Some(map) = value.as_object_mut() else { return };
-                let section = place.split('/').nth(1).unwrap_or_default().to_string();
-                match section.as_str() {
-                    // The two that a specification cannot do without: nothing is said of what stands in for them.
-                    "" => {
-                        for (name, stand_in) in [("name", json!("arm")), ("arm", json!({}))] {
-                            if !map.contains_key(name) {
-                                map.insert(name.into(), stand_in);
-                                lost.insert(name.into());
-                            }
+                let Some(section) = section else {
+                    // Nothing is said of what stands in for these.
+                    for (name, stand_in) in [("name", json!("arm")), ("arm", json!({}))] {
+                        if !map.contains_key(name) {
+                            map.insert(name.into(), stand_in);
+                            lost.insert(name.into());
                         }
-                        return;
                     }
+                    return;
+                };
+                match section.as_str() {
                     "name" => drop(map.insert(section.clone(), json!("arm"))),
                     "arm" => drop(map.insert(section.clone(), json!({}))),
                     _ => drop(map.remove(&section)),
@@ -75,43 +77,40 @@ impl Change {
     }
 }
 
-/// The changes that do away with `error`.
-fn gather(error: &ValidationError<'_>, schema: &Value, changes: &mut Vec<Change>) {
-    let place = error.instance_path().as_str().to_string();
-    match error.kind() {
-        Kind::AdditionalProperties { unexpected } => {
-            let known = Explainer::known(schema, error.schema_path());
-            for name in unexpected {
-                let near = nearest(name, known.iter().map(String::as_str)).map(str::to_string);
-                changes.push(Change::Rename { object: place.clone(), from: name.clone(), to: near });
+/// The changes that do away with `mismatch`.
+fn gather(mismatch: &Mismatch<'_>, changes: &mut Vec<Change>) {
+    let place = &mismatch.place;
+    let cut = || Change::Cut { section: place.section().map(str::to_string) };
+    match &mismatch.kind {
+        Kind::Unknown(names) => {
+            for name in names {
+                let to = nearest(name, properties(mismatch.part)).map(str::to_string);
+                changes.push(Change::Rename { object: place.pointer(), from: (*name).to_string(), to });
             }
         }
-        Kind::AnyOf { context } => match meant(error, context) {
+        Kind::Alternatives(branches) => match meant(place, branches) {
             Some(branch) if !branch.is_empty() => {
-                branch.iter().for_each(|error| gather(error, schema, changes))
+                branch.iter().for_each(|mismatch| gather(mismatch, changes))
             }
-            _ => changes.push(Change::Cut { place }),
+            _ => changes.push(cut()),
         },
-        Kind::OneOfNotValid { context } => {
+        Kind::Variants(branches) => {
             // The variant that is least wrong: one with unknown fields only, if there is one.
-            let unknown = |branch: &&Vec<ValidationError<'static>>| {
-                !branch.is_empty()
-                    && branch.iter().all(|e| matches!(e.kind(), Kind::AdditionalProperties { .. }))
+            let unknown = |branch: &&Vec<Mismatch<'_>>| {
+                !branch.is_empty() && branch.iter().all(|m| matches!(m.kind, Kind::Unknown(_)))
             };
-            let inside = |branch: &&Vec<ValidationError<'static>>| {
-                branch.iter().all(|e| e.instance_path().as_str().len() > place.len())
-            };
-            match context.iter().filter(unknown).find(inside) {
-                Some(branch) => branch.iter().for_each(|error| gather(error, schema, changes)),
-                None => changes.push(Change::Cut { place }),
+            let inside = |branch: &&Vec<Mismatch<'_>>| branch.iter().all(|m| m.place.depth() > place.depth());
+            match branches.iter().filter(unknown).find(inside) {
+                Some(branch) => branch.iter().for_each(|mismatch| gather(mismatch, changes)),
+                None => changes.push(cut()),
             }
         }
         // A required field that stands there misspelt comes back under its own name.
-        Kind::Required { .. } if place.is_empty() => changes.push(Change::Cut { place }),
-        Kind::Required { .. }
-            if changes
-                .iter()
-                .any(|c| matches!(c, Change::Rename { object, to: Some(_), .. } if *object == place)) => {}
-        _ => changes.push(Change::Cut { place }),
+        Kind::Missing(_) if place.depth() > 0 && renamed_in(&place.pointer(), changes) => {}
+        _ => changes.push(cut()),
     }
+}
+
+fn renamed_in(place: &str, changes: &[Change]) -> bool {
+    changes.iter().any(|c| matches!(c, Change::Rename { object, to: Some(_), .. } if object == place))
 }

@@ -1,7 +1,5 @@
 //! Reductions over dictionaries with products of functions.
 
-use rayon::prelude::*;
-
 use super::minimax::{largest, residual};
 use super::sparse::{CandidateFunction, Group, Sparse, products};
 use super::{GramSchmidt, Samples, weight};
@@ -9,6 +7,7 @@ use crate::domain::Measure;
 use crate::lagrangian::{Function, Lagrangian, evaluate};
 use crate::numerics::basis::Basis;
 use crate::numerics::chebyshev::{fit, spanning_points};
+use crate::parallel::Parallelize;
 
 /// The functions among which a reduction chooses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

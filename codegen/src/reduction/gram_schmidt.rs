@@ -3,10 +3,9 @@
 //! ψ_l and α_m are never orthogonalised one by one: with e the direction chosen last, (6) and (7) take
 //! from every norm ∫ψ_l² and every correlation ∫α_m ψ_l a product of two dot products with e.
 
-use rayon::prelude::*;
-
 use super::samples::Samples;
 use crate::numerics::vector::{add_scaled, dot};
+use crate::parallel::Parallelize;
 
 /// Norms that have shrunk below this fraction of the original are recomputed before use: the running
 /// difference has lost its digits.

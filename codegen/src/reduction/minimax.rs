@@ -2,12 +2,11 @@
 //!
 //! The bounds (9) and (10) are maxima, so the least squares of (4) is the wrong last step.
 
-use rayon::prelude::*;
-
 use super::Reduced;
 use crate::lagrangian::{Combination, Lagrangian, evaluate};
 use crate::numerics::basis::Basis;
 use crate::numerics::chebyshev::{fit, spanning_points};
+use crate::parallel::Parallelize;
 
 /// Residuals below this fraction of the coefficient are rounding: nothing to refit.
 pub(super) const ROUNDING: f64 = 1e-12;

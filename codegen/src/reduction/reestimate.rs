@@ -1,13 +1,12 @@
 //! The parameters that a simplified model would have for other inertial parameters of the arm, section 3.3 of the report.
 
-use rayon::prelude::*;
-
 use super::Reduced;
 use super::minimax::{Columns, ROUNDING, combination, largest};
 use crate::lagrangian::{Combination, Lagrangian};
 use crate::numerics::basis::Basis;
 use crate::numerics::chebyshev::{fit, spanning_points};
 use crate::numerics::vector::dot;
+use crate::parallel::Parallelize;
 use crate::spec::RefitSpec;
 
 /// Lets every α̂_m follow the uncertain parameters: α̂_m + Σ_k u_k ∂α̂_m/∂u_k, where ∂α̂_m/∂u_k is what the kept

@@ -1,10 +1,9 @@
 //! Functions and coefficients as vectors over the points of a measure.
 
-use rayon::prelude::*;
-
 use crate::domain::Measure;
 use crate::lagrangian::Lagrangian;
 use crate::numerics::vector::add_scaled;
+use crate::parallel::Parallelize;
 
 /// Values at the points, each times the square root of the point's weight, so that ∫ a b is a dot product.
 #[derive(Clone, Debug)]

@@ -1,13 +1,12 @@
 //! Mode `separate`: every coefficient picks ξ functions of its own, the closing remark of section 2 of the report.
 
-use rayon::prelude::*;
-
 use super::minimax::{Columns, ROUNDING, combination, largest, residual};
 use super::{GramSchmidt, Kind, Reduced, Samples};
 use crate::domain::Measure;
 use crate::lagrangian::{Combination, Lagrangian};
 use crate::numerics::basis::Basis;
 use crate::numerics::chebyshev::{fit, spanning_points};
+use crate::parallel::Parallelize;
 
 /// Where the model has more functions than this, a coefficient chooses among those of its own exact form alone.
 const MANY: usize = 1000;

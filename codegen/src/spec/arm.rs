@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The arm: either `dh` or `urdf`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ArmSpec {
     /// Acceleration of gravity in the base frame, m/s². Default [0, 0, −9.81].
@@ -37,7 +37,8 @@ pub struct ArmSpec {
 }
 
 /// A Denavit–Hartenberg table.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct DhSpec {
     /// Which of the two conventions the table follows.
@@ -47,7 +48,8 @@ pub struct DhSpec {
 }
 
 /// Denavit–Hartenberg convention.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Convention {
     /// Frame i at the far end of link i: T = Rz(θ) Tz(d) Tx(a) Rx(α).
@@ -57,7 +59,8 @@ pub enum Convention {
 }
 
 /// Kind of a joint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum JointKind {
     /// Turns about its axis; q in rad.
@@ -67,7 +70,8 @@ pub enum JointKind {
 }
 
 /// One row of a Denavit–Hartenberg table with the link's inertia and drive.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct LinkSpec {
     /// Kind of the joint.
@@ -113,7 +117,8 @@ pub struct LinkSpec {
 }
 
 /// Drive data of a URDF joint that the file cannot say, or says wrongly.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct DriveSpec {
     /// Reflected rotor inertia, joint side, kg·m² (kg for a prismatic joint); excludes `motor`.
@@ -134,7 +139,8 @@ pub struct DriveSpec {
 }
 
 /// A symmetric 3×3 matrix by its six entries; the products default to zero.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SymmetricSpec {
     /// Entry (1,1).
@@ -155,7 +161,8 @@ pub struct SymmetricSpec {
 }
 
 /// Motor-side quantities behind a gear.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MotorSpec {
     /// Rotor inertia, kg·m²; reaches the joint times gear².
@@ -171,7 +178,8 @@ pub struct MotorSpec {
 }
 
 /// Coulomb friction: one number for both directions, or [positive, negative] with the second ≤ 0.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub enum CoulombSpec {
     /// The same torque against both directions.
@@ -181,7 +189,8 @@ pub enum CoulombSpec {
 }
 
 /// Limits of a joint.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct LimitsSpec {
     /// [lowest, highest] position, rad or m.
@@ -199,7 +208,8 @@ pub struct LimitsSpec {
 }
 
 /// A rigid body fixed to the tip.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PayloadSpec {
     /// Mass, kg.

@@ -1,17 +1,17 @@
 //! The tracking law and its numbers.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{AdaptationSpec, MatrixSpec, UncertaintySpec, VectorSpec};
 
 /// The tracking law and its numbers: those of the gains are given, or `design` asks for them.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[schemars(extend(
+#[cfg_attr(test, schemars(extend(
     "if" = { "not": { "required": ["design"] } },
     "then" = { "required": ["period", "W", "Pqq", "Omega"] }
-))]
+)))]
 pub struct ControlSpec {
     /// Which law.
     pub law: LawSpec,
@@ -64,7 +64,8 @@ pub struct ControlSpec {
 }
 
 /// What the gains are to achieve; diagonal W, Pqq, Ω and the layer φ are chosen so that the guarantee holds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct DesignSpec {
     /// Time in which position errors fall to 1/20 of the largest initial one, s.
@@ -81,7 +82,8 @@ pub struct DesignSpec {
 }
 
 /// Tracking laws.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum LawSpec {
     /// Equation (16): no robust term.
@@ -96,7 +98,8 @@ pub enum LawSpec {
 }
 
 /// The variants of equation (34).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum CoriolisTermSpec {
     /// −ΔC1 s.
@@ -107,7 +110,8 @@ pub enum CoriolisTermSpec {
 }
 
 /// What the controller commands when a measurement is not finite.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum OnFaultSpec {
     /// The last command that was computed from a good measurement.
@@ -120,7 +124,8 @@ pub enum OnFaultSpec {
 }
 
 /// Largest initial error, per joint.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct InitialErrorSpec {
     /// Position error, rad or m.

@@ -1,10 +1,10 @@
 //! What the generated code looks like.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What the generated code looks like.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct EmitSpec {
     /// Number type of the generated code.
@@ -16,7 +16,8 @@ pub struct EmitSpec {
 }
 
 /// How the generated code takes sines and cosines; the error counts in the bounds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum TrigSpec {
     /// The crate `libm`.
@@ -42,7 +43,8 @@ impl TrigSpec {
 }
 
 /// Number type of the generated code.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ScalarSpec {
     /// IEEE double.

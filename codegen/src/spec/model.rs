@@ -1,12 +1,12 @@
 //! Where the reduction is judged, what it keeps, and how that is fitted.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::VectorSpec;
 
 /// Where the reduction is judged.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum MeasureSpec {
     /// Along the desired trajectory.
@@ -21,7 +21,8 @@ pub enum MeasureSpec {
 }
 
 /// Form of the generated model.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ModelSpec {
     /// The cheapest model whose certified torque error stays below 1 % of each joint's peak torque.
@@ -61,7 +62,8 @@ impl ModelSpec {
 }
 
 /// How the parameters of the kept functions are fitted.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum RefitSpec {
     /// Least largest residual, because the bounds (9) and (10) are maxima: the optimum of a linear programme over points of
@@ -73,7 +75,8 @@ pub enum RefitSpec {
 }
 
 /// The candidate functions of the reduction.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum DictionarySpec {
     /// cos(κ·q) and sin(κ·q), times powers of prismatic coordinates.

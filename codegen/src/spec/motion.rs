@@ -1,10 +1,10 @@
 //! The desired motion.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The desired motion.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum MotionSpec {
     /// Quintic polynomial, at rest at both ends.
@@ -40,7 +40,8 @@ pub enum MotionSpec {
 }
 
 /// One sinusoid of one joint.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SinusoidSpec {
     /// Amplitude, rad or m.

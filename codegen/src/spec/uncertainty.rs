@@ -1,6 +1,5 @@
 //! What is known of the arm only to intervals, and how a law learns it.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::VectorSpec;
@@ -8,7 +7,8 @@ use super::VectorSpec;
 /// Parameters that are known only to intervals, each `[lowest, highest]` with the arm's own value between them.
 ///
 /// Every interval given stands for one uncertain number, and they vary independently: at most 10 of inertia.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct UncertaintySpec {
     /// The body carried at the tip, in the tip frame.
@@ -23,7 +23,8 @@ pub struct UncertaintySpec {
 }
 
 /// One link whose inertia is uncertain.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct LinkUncertaintySpec {
     /// Name of the joint that moves the link: `joint1`, `joint2`, … of a DH table, the file's names of a URDF.
@@ -44,7 +45,8 @@ pub struct LinkUncertaintySpec {
 }
 
 /// A payload whose inertia is uncertain; its parameters stand in the tip frame.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PayloadUncertaintySpec {
     /// Mass, kg, 0 without `arm.payload`. What it differs by from the arm's own sits as a point at `at`.
@@ -62,7 +64,8 @@ pub struct PayloadUncertaintySpec {
 }
 
 /// Intervals of the entries of a symmetric 3×3 matrix; what is absent is known.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SymmetricIntervalsSpec {
     /// Entry (1,1).
@@ -86,7 +89,8 @@ pub struct SymmetricIntervalsSpec {
 }
 
 /// How law `adaptive` learns, equation (49).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct AdaptationSpec {
     /// Which parameters are θ.
@@ -104,7 +108,8 @@ impl Default for AdaptationSpec {
 }
 
 /// The parameters θ of the adaptive law.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ParametersSpec {
     /// The uncertain numbers of inertia: few, and physically consistent.

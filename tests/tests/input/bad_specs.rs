@@ -10,5 +10,6 @@ mod model;
 mod motion;
 mod several;
 mod shape;
+mod snapshots;
 mod uncertainty;
 mod urdf;

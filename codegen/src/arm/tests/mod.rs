@@ -1,7 +1,9 @@
 //! The arms of the sample specifications against independently computed reference values.
 
 mod faults;
+#[cfg(feature = "urdf")]
 mod urdf;
+#[cfg(feature = "urdf")]
 mod urdf_faults;
 
 use std::path::{Path, PathBuf};

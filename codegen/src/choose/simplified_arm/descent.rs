@@ -1,12 +1,11 @@
 //! The descent: at each level of the error, what saves most for what it adds, as long as something is admitted.
 
-use rayon::prelude::*;
-
 use super::ArmCandidate;
 use super::moves::moves;
 use super::refit::Kept;
 use super::table::Table;
 use crate::arm::{Arm, Inertial, Quantity};
+use crate::parallel::Parallelize;
 use crate::torque::{Plan, cost, planned};
 
 /// The first level: the error at the points as a fraction of the joint's peak torque.

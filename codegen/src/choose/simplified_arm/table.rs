@@ -1,11 +1,10 @@
 //! What every inertial parameter adds to every coefficient at points of the domain.
 
-use rayon::prelude::*;
-
 use super::ArmProblem;
 use crate::arm::{Arm, Inertial};
 use crate::dynamics::{gravity, mass_matrix, passivity_torque, positions};
 use crate::lagrangian::{Entry, Lagrangian};
+use crate::parallel::Parallelize;
 
 /// Values at the points of a [`ArmProblem`].
 pub(super) struct Table {

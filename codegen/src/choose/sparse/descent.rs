@@ -3,13 +3,12 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use super::cost::Costs;
 use super::fitting::{Form, Table};
 use super::moves::{Moves, united};
 use super::ties::{exchanged, tied};
 use super::{STEP, STRICTEST, SparseCandidate, SparseProblem, start};
+use crate::parallel::Parallelize;
 use crate::reduction::{CandidateFunction, Group, Sparse};
 
 /// Exchanges whose error is above the step's by no more than this factor are fitted again to the room that the other

@@ -13,9 +13,8 @@ mod ties;
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use crate::lagrangian::{Absolute, Lagrangian, evaluate};
+use crate::parallel::Parallelize;
 use crate::reduction::{CandidateFunction, Sparse, products};
 use fitting::Table;
 
