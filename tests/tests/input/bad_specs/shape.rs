@@ -100,7 +100,7 @@ const CASES: &[Case] = &[
             i.replace("\"law\":\"report\",", "\"law\":\"report\",,");
         },
         "",
-        &["line 1, column ", "mend the JSON"],
+        &["line 1, column ", "correct the JSON"],
     ),
     case(
         "syntax: file breaks off",
@@ -115,7 +115,7 @@ const CASES: &[Case] = &[
         "syntax: a second value",
         |i| i.text = Some(format!("{} {{}}", i.spec).into_bytes()),
         "",
-        &["line 1", "trailing", "mend the JSON"],
+        &["line 1", "trailing", "correct the JSON"],
     ),
     case(
         "a key without end",
@@ -138,7 +138,7 @@ const CASES: &[Case] = &[
         "too deep",
         |i| i.text = Some("[".repeat(100_000).into_bytes()),
         "",
-        &["recursion limit", "mend the JSON"],
+        &["recursion limit", "correct the JSON"],
     ),
     case(
         "NaN",
@@ -146,7 +146,7 @@ const CASES: &[Case] = &[
             i.replace("\"mass\":5.5", "\"mass\":NaN");
         },
         "",
-        &["line 1", "mend the JSON"],
+        &["line 1", "correct the JSON"],
     ),
     case(
         "unknown joint type",

@@ -159,10 +159,19 @@ fn directives(folder: &Path, paths: &[PathBuf], good: bool, context: &str) {
         !told.stdout.lines().any(|line| line.starts_with("cargo::error=")),
         "{context}: {told:?}"
     );
-    for entry in fs::read_dir(&out_dir).expect("a folder") {
-        let text = fs::read_to_string(entry.expect("an entry").path()).expect("readable");
+    for text in texts(&out_dir) {
         assert!(!text.chars().any(is_raw), "{context}: {text:?}");
     }
+}
+
+/// The files in a folder and in those below it, such as that of the cache.
+fn texts(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+    let text = |path: std::path::PathBuf| match path.is_dir() {
+        true => texts(&path),
+        false => vec![fs::read_to_string(path).expect("readable")],
+    };
+    entries.flat_map(text).collect()
 }
 
 #[test]
