@@ -20,7 +20,7 @@ use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::progress::{Progress, Stage};
 use crate::reduction::{self, Problem, Reduced, extremes};
-use points::{points, seen};
+use points::{points, seen_within};
 use proofs::Proofs;
 
 /// Sparse members whose error at the points is above the tolerance by this factor are looked at, too: between two of them
@@ -134,9 +134,9 @@ pub fn cheapest(ask: &Ask, fraction: f64) -> Choice {
         let stage = Stage::new(ask.progress, "models within the tolerance", choices.len());
         choices.into_iter().find(|choice| {
             let _part = stage.part();
-            let seen = || seen(ask.lagrangian, &choice.reduced, &shares, &everywhere);
+            let seen = || seen_within(ask.lagrangian, &choice.reduced, &shares, &everywhere, fraction);
             choice.reduced.is_finite()
-                && (ask.is_long() || seen() <= fraction)
+                && (ask.is_long() || seen())
                 && proofs.within(ask, &choice.reduced, &limits)
         })
     };

@@ -14,13 +14,14 @@ const STRETCH: f64 = 1.5;
 /// Corners of the joint box beside them.
 const CORNERS: usize = 32;
 
-/// Largest Σ_m |r_m| `shares`_im over joints and `points`.
-pub(super) fn seen(
+/// Whether Σ_m |r_m| `shares`_im is within `fraction` for all joints and `points`.
+pub(super) fn seen_within(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     shares: &[Vec<f64>],
     points: &[Vec<f64>],
-) -> f64 {
+    fraction: f64,
+) -> bool {
     let residuals: Vec<Combination> =
         (0..reduced.combinations.len()).map(|m| reduced.residual(lagrangian, m)).collect();
     let at = |q: &Vec<f64>| {
@@ -29,7 +30,7 @@ pub(super) fn seen(
         let row = |row: &Vec<f64>| row.iter().zip(&left).map(|(u, r)| u * r).sum::<f64>();
         shares.iter().map(row).fold(0.0, f64::max)
     };
-    points.par_iter().map(at).reduce(|| 0.0, f64::max)
+    points.par_iter().all(|q| at(q) <= fraction)
 }
 
 /// Points of the domain to fit to: few, evenly spread, with sides and corners.
