@@ -16,6 +16,8 @@ use super::lu::Lu;
 const TOLERANCE: f64 = 1e-6;
 /// Slack on λ ≥ 0 in the ratio test, so that among nearly tied points the best-conditioned one leaves.
 const SLACK: f64 = 1e-10;
+/// Values compared side by side.
+const LANES: usize = 8;
 /// Points handled at a time, so that a block stays in the first-level cache.
 const BLOCK: usize = 512;
 
@@ -64,6 +66,12 @@ pub(super) fn spanning_points(basis: &Basis) -> Vec<usize> {
 /// Never worse than all parameters 0, and ends after a number of steps that depends on the number of directions
 /// alone: where rounding stops the exchange early, the best parameters so far are returned.
 pub(super) fn fit(basis: &Basis, values: &[f64], start: &[usize]) -> Fit {
+    fit_below(basis, values, start, f64::INFINITY)
+}
+
+/// As [`fit`] where some parameters leave no residual above `most`; otherwise the exchange may end as soon as its level says
+/// so.
+pub(super) fn fit_below(basis: &Basis, values: &[f64], start: &[usize], most: f64) -> Fit {
     let directions = &basis.directions;
     let count = directions.len();
     let (first, deviation) = largest(values);
@@ -85,7 +93,11 @@ pub(super) fn fit(basis: &Basis, values: &[f64], start: &[usize]) -> Fit {
             best.deviation = deviation;
             best.parameters = parameters;
         }
-        if best.deviation <= best.level * (1.0 + TOLERANCE) || reference.iter().any(|a| a.point == point) {
+        let hopeless = best.level > most && best.deviation > most;
+        if hopeless
+            || best.deviation <= best.level * (1.0 + TOLERANCE)
+            || reference.iter().any(|a| a.point == point)
+        {
             break;
         }
         let entering = Active { point, sign: residual[point].signum() };
@@ -163,9 +175,22 @@ fn residuals(directions: &[Vec<f64>], values: &[f64], parameters: &[f64], out: &
 /// The first position of the largest absolute value, and that value; (0, 0) for nothing.
 fn largest(values: &[f64]) -> (usize, f64) {
     let mut best = (0, 0.0);
-    for (i, x) in values.iter().enumerate() {
-        if x.abs() > best.1 {
-            best = (i, x.abs());
+    for (number, block) in values.chunks(LANES * 4).enumerate() {
+        // Only where a block holds something larger it is looked at one by one.
+        let mut lanes = [0.0; LANES];
+        let (whole, rest) = block.as_chunks::<LANES>();
+        for eight in whole {
+            for (most, x) in lanes.iter_mut().zip(eight) {
+                *most = if x.abs() > *most { x.abs() } else { *most };
+            }
+        }
+        if !lanes.iter().chain(rest).any(|x| x.abs() > best.1) {
+            continue;
+        }
+        for (i, x) in block.iter().enumerate() {
+            if x.abs() > best.1 {
+                best = (number * LANES * 4 + i, x.abs());
+            }
         }
     }
     best

@@ -1,5 +1,6 @@
 //! What a sparse model costs, counted on its structure as the code will compute it.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::graph::TRIG_PAIR;
@@ -19,6 +20,8 @@ pub(super) struct Prices {
     constant: Vec<bool>,
     /// By coefficient and row: rates with signs.
     places: Vec<Vec<Vec<Term>>>,
+    /// Their [`summed`] by coefficient, sign (1 where it is turned) and row.
+    alone_in_group: Vec<[Vec<Vec<Term>>; 2]>,
     dof: usize,
     /// [`crate::lagrangian::Coordinates::onto`] of a model in absolute angles.
     onto: Vec<i8>,
@@ -31,12 +34,17 @@ impl Prices {
             candidates.iter().map(|c| table.candidate(lagrangian, c).into_iter().collect()).collect();
         let alone = needs.iter().map(|needs| needs.iter().map(|&node| table.costs[node]).sum()).collect();
         let is_one = |c: &Candidate| c.factors.iter().all(|&l| lagrangian.functions[l] == Function::ONE);
+        let places: Vec<_> = (0..lagrangian.coefficients.len()).map(|m| rates(lagrangian, m)).collect();
+        let of_sign = |rows: &Vec<Vec<Term>>, sign: f64| -> Vec<Vec<Term>> {
+            rows.iter().map(|row| summed(row.iter().map(|term| turned(term, sign)).collect()).0).collect()
+        };
         Self {
+            alone_in_group: places.iter().map(|rows| [1.0, -1.0].map(|sign| of_sign(rows, sign))).collect(),
             needs,
             alone,
             constant: candidates.iter().map(is_one).collect(),
             nodes: table.costs,
-            places: (0..lagrangian.coefficients.len()).map(|m| rates(lagrangian, m)).collect(),
+            places,
             dof: lagrangian.dof,
             onto: onto.map_or(vec![0; lagrangian.dof], <[i8]>::to_vec),
         }
@@ -49,7 +57,7 @@ impl Prices {
         let mut in_row = vec![0_usize; self.dof];
         let mut single: BTreeSet<Rate> = BTreeSet::new();
         let mut sums: BTreeSet<Vec<Term>> = BTreeSet::new();
-        let mut products: Vec<Vec<Term>> = Vec::new();
+        let mut products: Vec<Cow<[Term]>> = Vec::new();
         for (members, functions) in groups.filter(|(_, functions)| !functions.is_empty()) {
             cost += functions.len() - 1;
             for &f in functions {
@@ -62,27 +70,19 @@ impl Prices {
             }
             products.clear();
             for (row, count) in in_row.iter_mut().enumerate() {
-                let mut terms: Vec<Term> = Vec::new();
-                for &(m, sign) in members {
-                    let turned = |&(rate, s): &Term| (rate, if sign < 0.0 { -s } else { s });
-                    terms.extend(self.places[m][row].iter().map(turned));
-                }
+                let terms = self.row(members, row);
                 if terms.is_empty() {
                     continue;
                 }
                 *count += 1;
-                let (terms, _) = summed(terms);
-                if terms == [(Rate::One, 1)] {
-                    continue;
-                }
-                if products.contains(&terms) {
+                if *terms == [(Rate::One, 1)] || products.contains(&terms) {
                     continue;
                 }
                 cost += 1;
-                if terms.len() == 1 {
-                    single.insert(terms[0].0);
-                } else {
-                    sums.insert(terms.clone());
+                if let [(rate, _)] = *terms {
+                    single.insert(rate);
+                } else if !sums.contains(&*terms) {
+                    sums.insert(terms.to_vec());
                 }
                 products.push(terms);
             }
@@ -91,6 +91,15 @@ impl Prices {
         cost += self.relative(rates, &in_row);
         cost += grouped(&sums, single).0;
         cost + in_row.iter().map(|count| count.saturating_sub(1)).sum::<usize>()
+    }
+
+    /// What the group of `members` is multiplied by in a row, as [`summed`] has it.
+    fn row(&self, members: &[(usize, f64)], row: usize) -> Cow<'_, [Term]> {
+        if let &[(m, sign)] = members {
+            return Cow::Borrowed(&self.alone_in_group[m][usize::from(sign < 0.0)][row]);
+        }
+        let of = |&(m, sign): &(usize, f64)| self.places[m][row].iter().map(move |term| turned(term, sign));
+        Cow::Owned(summed(members.iter().flat_map(of).collect()).0)
     }
 
     /// How often the groups need each node.
@@ -153,6 +162,10 @@ impl Prices {
         }
         cost
     }
+}
+
+fn turned(&(rate, s): &Term, sign: f64) -> Term {
+    (rate, if sign < 0.0 { -s } else { s })
 }
 
 /// What is computed once however many candidates need it.
