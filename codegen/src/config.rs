@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use crate::bounds::Effort;
 use crate::check::read;
-use crate::error::{Error, Faults, Stale};
+use crate::error::{Diagnostics, Error, Stale};
 use crate::load::Loaded;
 use crate::output::{Wanted, is_current, write_all};
 use crate::pipeline::Generation;
@@ -38,6 +38,7 @@ pub struct Config {
 }
 
 /// One generated module.
+#[non_exhaustive]
 #[derive(Clone, Debug)]
 pub struct Output {
     /// The file: the output folder, the specification's name, `.rs`.
@@ -148,7 +149,7 @@ impl Config {
         for (spec, loaded) in self.specs.iter().zip(loaded) {
             let generation = loaded.and_then(|loaded| self.generation(loaded));
             let built = generation.and_then(|generation| {
-                let path = out_dir.join(format!("{}.rs", generation.loaded.spec.name));
+                let path = out_dir.join(format!("{}.rs", generation.spec().name));
                 Ok(Output { path, text: generation.module()?, written: false, generation })
             });
             match built {
@@ -174,17 +175,17 @@ impl Config {
 
     fn folder(&self) -> Result<PathBuf, Error> {
         let unset = || {
-            let mend = "set it with `out_dir`, or run inside a build script, where cargo sets OUT_DIR";
-            Error::input(Path::new("gramforge::Config"), "out_dir", "is not set", mend)
+            let help = "set it with `out_dir`, or run inside a build script, where cargo sets OUT_DIR";
+            Error::input(Path::new("gramforge::Config"), "out_dir", "is not set", help)
         };
         self.out_dir.clone().or_else(|| std::env::var_os("OUT_DIR").map(PathBuf::from)).ok_or_else(unset)
     }
 }
 
-fn same_name(spec: &Path, output: &Output, other: &Output) -> Vec<crate::error::Fault> {
-    let mut faults = Faults::of(spec);
-    let name = &output.generation.loaded.spec.name;
-    let first = other.generation.loaded.path.display();
+fn same_name(spec: &Path, output: &Output, other: &Output) -> Vec<crate::error::Diagnostic> {
+    let mut faults = Diagnostics::of(spec);
+    let name = &output.generation.spec().name;
+    let first = other.generation.path().display();
     faults.push("name", format!("is {name:?}, as in {first}"), "give every specification a name of its own");
     match faults.into_error() {
         Error::Input(list) => list,

@@ -9,8 +9,9 @@ use crate::text::escaped;
 pub const MOST_TOLD: usize = 100;
 
 /// One thing wrong with the input. Shown, it takes one line, whatever it holds.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
+pub struct Diagnostic {
     /// The file it stands in.
     pub file: PathBuf,
     /// The line of that file, from 1; `None` where the field says enough.
@@ -20,13 +21,13 @@ pub struct Fault {
     /// What is wrong, with the offending value.
     pub problem: String,
     /// What to write instead.
-    pub mend: String,
+    pub help: String,
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let place = located(&self.file, self.line, &self.field);
-        write!(f, "{}: {}; {}", escaped(&place), escaped(&self.problem), escaped(&self.mend))
+        write!(f, "{}: {}; {}", escaped(&place), escaped(&self.problem), escaped(&self.help))
     }
 }
 
@@ -44,12 +45,12 @@ pub(crate) fn located(file: &Path, line: Option<usize>, field: &str) -> String {
 
 /// Collects faults so that a user sees all of them at once.
 #[derive(Clone, Debug)]
-pub struct Faults {
+pub struct Diagnostics {
     file: PathBuf,
-    list: Vec<Fault>,
+    list: Vec<Diagnostic>,
 }
 
-impl Faults {
+impl Diagnostics {
     /// An empty collection whose faults will name `file`.
     pub fn of(file: &Path) -> Self {
         Self { file: file.to_path_buf(), list: Vec::new() }
@@ -61,9 +62,9 @@ impl Faults {
     }
 
     /// Adds a fault in this collection's file.
-    pub fn push(&mut self, field: impl Into<String>, problem: impl Into<String>, mend: impl Into<String>) {
+    pub fn push(&mut self, field: impl Into<String>, problem: impl Into<String>, help: impl Into<String>) {
         let file = self.file.clone();
-        self.push_in(&file, field, problem, mend);
+        self.push_in(&file, field, problem, help);
     }
 
     /// Adds a fault in another file, such as a URDF or CSV that the specification names.
@@ -72,9 +73,9 @@ impl Faults {
         file: &Path,
         field: impl Into<String>,
         problem: impl Into<String>,
-        mend: impl Into<String>,
+        help: impl Into<String>,
     ) {
-        self.push_at(file, None, field, problem, mend);
+        self.push_at(file, None, field, problem, help);
     }
 
     /// Adds a fault in line `line`, where that is known, of another file.
@@ -84,19 +85,19 @@ impl Faults {
         line: Option<usize>,
         field: impl Into<String>,
         problem: impl Into<String>,
-        mend: impl Into<String>,
+        help: impl Into<String>,
     ) {
-        self.list.push(Fault {
+        self.list.push(Diagnostic {
             file: file.to_path_buf(),
             line,
             field: field.into(),
             problem: problem.into(),
-            mend: mend.into(),
+            help: help.into(),
         });
     }
 
     /// Adds faults found elsewhere.
-    pub fn extend(&mut self, more: impl IntoIterator<Item = Fault>) {
+    pub fn extend(&mut self, more: impl IntoIterator<Item = Diagnostic>) {
         self.list.extend(more);
     }
 
@@ -106,7 +107,7 @@ impl Faults {
     }
 
     /// The faults so far, in the order in which they were found.
-    pub fn list(&self) -> &[Fault] {
+    pub fn list(&self) -> &[Diagnostic] {
         &self.list
     }
 
@@ -130,6 +131,7 @@ impl Faults {
 }
 
 /// A generated file that is not what its specification gives.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stale {
     /// The file that differs or is missing.
@@ -139,11 +141,12 @@ pub struct Stale {
 }
 
 /// Why a stage could not deliver.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The input is at fault: exit code 2.
     #[error("{}", list(.0))]
-    Input(Vec<Fault>),
+    Input(Vec<Diagnostic>),
     /// Generated files on disk differ from what their specifications give: exit code 1.
     #[error("{}", stale(.0))]
     Stale(Vec<Stale>),
@@ -163,9 +166,9 @@ impl Error {
     }
 
     /// A single fault as an error.
-    pub fn input(file: &Path, field: &str, problem: impl Into<String>, mend: impl Into<String>) -> Self {
-        let mut faults = Faults::of(file);
-        faults.push(field, problem, mend);
+    pub fn input(file: &Path, field: &str, problem: impl Into<String>, help: impl Into<String>) -> Self {
+        let mut faults = Diagnostics::of(file);
+        faults.push(field, problem, help);
         faults.into_error()
     }
 }
@@ -178,8 +181,8 @@ fn stale(files: &[Stale]) -> String {
     files.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-fn list(faults: &[Fault]) -> String {
-    let mut lines: Vec<String> = faults.iter().take(MOST_TOLD).map(Fault::to_string).collect();
+fn list(faults: &[Diagnostic]) -> String {
+    let mut lines: Vec<String> = faults.iter().take(MOST_TOLD).map(Diagnostic::to_string).collect();
     if let Some(more) = faults.len().checked_sub(MOST_TOLD).filter(|more| *more > 0) {
         lines.push(format!("and {more} more"));
     }

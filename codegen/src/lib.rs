@@ -1,62 +1,74 @@
 //! Gramforge: an offline generator of reduced robot dynamics and tracking controllers.
 //!
-//! A specification names an arm, a motion or a workspace, a form of model and a tracking law; out comes a flat,
-//! allocation-free `no_std` module that implements `gramforge_runtime::Model`. [`Config`] does it from a build
-//! script, [`Generation`] stage by stage:
+//! A specification names an arm, a motion or a workspace, a form of model and a tracking law. Gramforge writes a flat,
+//! allocation-free `no_std` module that implements `gramforge_runtime::Model`.
 //!
-//! 1. [`load`] reads the JSON file against its schema: [`spec::Spec`].
-//! 2. [`mod@arm`] turns its DH table or URDF into joints in one normal form: [`arm::Arm`].
-//! 3. [`mod@check`] judges every other value of the specification.
-//! 4. [`lagrangian`] expands D, h and G of equation (1) over cos(κ·q) and sin(κ·q), sampled by [`dynamics`]:
-//!    [`lagrangian::Lagrangian`].
-//! 5. [`motion`] and [`measure`] say where the model must be good, as weighted points: [`measure::Measure`].
-//! 6. [`reduction`] keeps ξ functions by weighted Gram–Schmidt (2)–(8), or [`mod@tolerance`] as few as a certified
-//!    torque error allows: [`reduction::Reduced`].
-//! 7. [`bounds`] says how much was left out: [`bounds::Bounds`].
-//! 8. [`mod@design`] makes the numbers of the tracking law (16) or (34) from gains and bounds: [`design::Design`].
-//! 9. [`body`] writes the passivity torque D̂ a_r + Ĉ v_r + Ĝ as an expression [`graph`]: [`graph::Graph`].
-//! 10. [`mod@emit`] prints graph and constants as Rust.
+//! ```no_run
+//! // In build.rs, inside main:
+//! gramforge::Config::new().spec("specs/arm.json").run_in_build_script();
+//! ```
 //!
-//! Beside the line stand [`mod@simulate`], which closes the loop with the very laws of the runtime, [`report`], which
-//! shows what came out, [`progress`], which tells how far the work is, [`output`], the only place that writes files, [`text`], which
-//! escapes what is printed, and [`cli`].
+//! - [`Config`] generates modules, from a build script or from a program of your own; an [`Output`] is one module.
+//! - [`Generation`] is everything that follows from one specification: the model, its bounds and the controller.
+//! - [`load`] reads a specification file into [`spec::Spec`].
+//! - [`Effort`] says how much work each bound may take, [`Progress`] hears how far it is.
+//! - [`Error`] tells every fault of the input at once, each as a [`Diagnostic`].
 //!
-//! Every stage is a function from values to a value and knows none after it. The same specification gives the same
-//! bytes on every machine: sums have a fixed order, sines come from `libm`, and no hash map is ever iterated.
+//! The same specification gives the same bytes on every machine: sums have a fixed order, sines come from `libm`, and no
+//! hash map is ever iterated.
 //!
 //! Equation numbers are those of A. P. Bartoszewicz, "Robust Robot Control Based on Simplified Dynamic Model",
 //! TR-EE 92-21, Purdue University, 1992.
 
-pub mod arm;
-pub mod body;
-pub mod bounds;
-pub mod check;
-pub mod cli;
-pub mod config;
-pub mod design;
-pub mod dynamics;
-pub mod emit;
-pub mod error;
-pub mod graph;
-pub mod interval;
-pub mod lagrangian;
+mod arm;
+mod bounds;
+mod check;
+mod choose;
+mod cli;
+mod config;
+mod control;
+mod domain;
+mod dynamics;
+mod emit;
+mod error;
+mod graph;
+mod lagrangian;
 pub mod load;
-pub mod measure;
-pub mod motion;
-pub mod number;
-pub mod output;
-pub mod pipeline;
-pub mod progress;
-pub mod reduction;
-pub mod report;
-pub mod reproduce;
-pub mod simulate;
-pub mod sines;
+mod model;
+mod motion;
+mod number;
+mod numerics;
+mod output;
+mod pipeline;
+mod progress;
+mod reduction;
+mod report;
+mod reproduce;
+mod simulate;
 pub mod spec;
-pub mod spread;
-pub mod text;
-pub mod tolerance;
+mod text;
+mod torque;
+mod trig;
 
+pub use bounds::Effort;
 pub use config::{Config, Output};
-pub use error::Error;
+pub use error::{Diagnostic, Error, Stale};
 pub use pipeline::Generation;
+pub use progress::Progress;
+
+/// The stages, open for the command and the tests of this workspace. Nothing here is promised to stay as it is.
+#[doc(hidden)]
+pub mod internals {
+    macro_rules! open {
+        ($($module:ident)*) => {
+            $(pub mod $module {
+                pub use crate::$module::*;
+            })*
+        };
+    }
+
+    open! {
+        arm bounds check choose cli control domain dynamics emit error graph lagrangian model motion number numerics output
+        pipeline progress reduction report reproduce simulate text torque trig
+    }
+}

@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    gramforge::cli::run()
+    gramforge::internals::cli::run()
 }

@@ -11,7 +11,7 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-use crate::error::{Error, Faults};
+use crate::error::{Diagnostics, Error};
 use partial::Partial;
 
 /// A file to be written: where, and what it is to say.
@@ -23,7 +23,7 @@ pub type Wanted<'a> = (&'a Path, &'a str);
 /// [`Error::Input`] naming every path that cannot be written or is something else than a regular file. No file has been
 /// changed then, unless a temporary one could be written and the file system refused to let it take its place.
 pub fn write_all(files: &[Wanted<'_>]) -> Result<Vec<bool>, Error> {
-    let mut faults = Faults::of(Path::new(""));
+    let mut faults = Diagnostics::of(Path::new(""));
     let mut partials = Vec::with_capacity(files.len());
     for &(path, text) in files {
         partial::clean(path);
@@ -37,7 +37,7 @@ pub fn write_all(files: &[Wanted<'_>]) -> Result<Vec<bool>, Error> {
         }
     }
     faults.finish(())?;
-    let mut faults = Faults::of(Path::new(""));
+    let mut faults = Diagnostics::of(Path::new(""));
     let mut written = Vec::with_capacity(files.len());
     for (&(path, text), partial) in files.iter().zip(partials) {
         written.push(partial.is_some());
@@ -76,13 +76,13 @@ fn replaceable(path: &Path) -> Result<(), String> {
     }
 }
 
-fn unwritable(path: &Path, problem: &str, faults: &mut Faults) {
-    let mend = if problem.starts_with("is ") {
+fn unwritable(path: &Path, problem: &str, faults: &mut Diagnostics) {
+    let help = if problem.starts_with("is ") {
         "remove it, or name another folder: only regular files are replaced"
     } else {
         "name a folder that can be written to"
     };
-    faults.push_in(path, "", problem, mend);
+    faults.push_in(path, "", problem, help);
 }
 
 #[cfg(test)]

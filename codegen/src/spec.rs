@@ -5,6 +5,7 @@
 
 mod arm;
 mod control;
+mod dense;
 mod emit;
 mod model;
 mod motion;

@@ -62,6 +62,11 @@ pub fn escaped_json(json: &str) -> String {
     out
 }
 
+/// "has 1 entry", "has 2 entries".
+pub(crate) fn has(count: usize) -> String {
+    format!("has {count} {}", if count == 1 { "entry" } else { "entries" })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

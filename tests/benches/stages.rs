@@ -6,10 +6,11 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use gramforge::bounds::{Effort, certified};
-use gramforge::lagrangian::expand;
-use gramforge::measure::Measure;
-use gramforge::{Generation, body, reduction};
+use gramforge::Generation;
+use gramforge::internals::bounds::{Effort, certified};
+use gramforge::internals::domain::Measure;
+use gramforge::internals::lagrangian::expand;
+use gramforge::internals::{reduction, torque};
 use gramforge_tests::{arm, generation, spec};
 
 fn expansion(c: &mut Criterion) {
@@ -26,7 +27,7 @@ fn exact_code(c: &mut Criterion) {
     for name in ["arm3_exact", "puma560_exact"] {
         let arm = arm(name);
         let lagrangian = expand(&arm);
-        group.bench_function(name, |b| b.iter(|| body::exact(black_box(&arm), black_box(&lagrangian))));
+        group.bench_function(name, |b| b.iter(|| torque::exact(black_box(&arm), black_box(&lagrangian))));
     }
     group.finish();
 }
@@ -35,27 +36,20 @@ fn exact_code(c: &mut Criterion) {
 fn reduction_and_certificates(c: &mut Criterion) {
     for (name, functions) in [("arm3_xi3", 3), ("puma560_xi6", 6)] {
         let made = generation(name);
-        let motion = made.motion.as_ref();
-        let measure = Measure::new(&made.domain, motion, &made.arm);
+        let measure = Measure::new(made.domain(), made.arm());
         let mut group = c.benchmark_group("reduction");
         group.bench_function(format!("{name}/gram_schmidt"), |b| {
-            b.iter(|| reduction::shared(black_box(&made.lagrangian), &measure, functions));
+            b.iter(|| reduction::shared(black_box(made.lagrangian()), &measure, functions));
         });
-        let points = reduction::extremes(&measure, &made.domain, motion);
-        let selected = reduction::shared(&made.lagrangian, &measure, functions);
+        let points = reduction::extremes(&measure, made.domain());
+        let selected = reduction::shared(made.lagrangian(), &measure, functions);
         group.bench_function(format!("{name}/minimax"), |b| {
-            b.iter(|| reduction::minimax(black_box(&made.lagrangian), selected.clone(), &points));
+            b.iter(|| reduction::minimax(black_box(made.lagrangian()), selected.clone(), &points));
         });
         group.finish();
         c.benchmark_group("certificates").bench_function(name, |b| {
             b.iter(|| {
-                certified(
-                    black_box(&made.lagrangian),
-                    &made.reduced,
-                    &made.domain,
-                    motion,
-                    &Effort::default(),
-                )
+                certified(black_box(made.lagrangian()), made.reduced(), made.domain(), &Effort::default())
             });
         });
     }

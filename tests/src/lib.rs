@@ -10,11 +10,11 @@ pub mod truth;
 use std::path::{Path, PathBuf};
 
 use gramforge::Generation;
-use gramforge::arm::{Arm, Built};
-use gramforge::check::prepare;
-use gramforge::error::Faults;
+use gramforge::internals::arm::{Arm, Built};
+use gramforge::internals::check::prepare;
+use gramforge::internals::error::Diagnostics;
+use gramforge::internals::motion::Motion;
 use gramforge::load::{Loaded, parse};
-use gramforge::motion::Motion;
 use serde_json::Value;
 
 /// The specification file of `name`, from `data/` or else from the committed ones.
@@ -32,7 +32,7 @@ pub fn arm(name: &str) -> Arm {
 /// The motion of specification `name`.
 pub fn motion(name: &str) -> Motion {
     let checked = prepare(&spec(name)).unwrap_or_else(|error| panic!("{error}"));
-    let mut faults = Faults::of(&checked.loaded.path);
+    let mut faults = Diagnostics::of(&checked.loaded.path);
     let spec = checked.loaded.spec.motion.as_ref().expect("the specification has a motion");
     Motion::from_spec(spec, checked.built.arm.dof(), &checked.loaded, &mut faults)
         .expect("a motion without faults")
@@ -55,7 +55,7 @@ pub fn edited(name: &str, edit: impl FnOnce(&mut Value)) -> Result<Generation, S
 /// The arm of specification `name` with some of its JSON changed, and the family that it allows.
 pub fn edited_arm(name: &str, edit: impl FnOnce(&mut Value)) -> Built {
     let loaded = edited_spec(name, edit).unwrap_or_else(|message| panic!("{message}"));
-    let mut faults = Faults::of(&loaded.path);
+    let mut faults = Diagnostics::of(&loaded.path);
     Arm::from_spec(&loaded, &mut faults).unwrap_or_else(|| panic!("{}", faults.into_error()))
 }
 

@@ -32,7 +32,7 @@ pub fn compile(folder: &Path, modules: &[Module]) -> Program {
     for (index, (name, joints, text)) in modules.iter().enumerate() {
         std::fs::write(source.join(format!("{name}.rs")), text).expect("a module");
         writeln!(main, "#[allow(dead_code)] mod {name} {{ include!(\"{name}.rs\"); }}").expect("text");
-        let model = gramforge::emit::type_name(name);
+        let model = gramforge::internals::emit::type_name(name);
         writeln!(arms, "        {index} => torque::<{joints}>(&{name}::{model}, &x),").expect("text");
     }
     write!(main, "fn called(index: usize, x: Vec<f64>) -> Vec<f64> {{\n    match index {{\n{arms}        _ => Vec::new(),\n    }}\n}}\n")

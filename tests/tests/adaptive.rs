@@ -1,8 +1,8 @@
 //! The adaptive law: its generated modules, what it learns, and the report's two claims about robust and adaptive control.
 
 use gramforge::Generation;
-use gramforge::arm::Arm;
-use gramforge::simulate::{ArmModel, Run, Scenario, simulate_on};
+use gramforge::internals::arm::Arm;
+use gramforge::internals::simulate::{ArmModel, Run, Scenario, simulate_on};
 use gramforge_generated::{arm3_adaptive, arm3_adaptive_guaranteed, arm3_robust};
 use gramforge_runtime::law::Law;
 use gramforge_runtime::reference::Reference;
@@ -19,7 +19,7 @@ fn run_on(generation: &Generation, plant: &Arm) -> Run {
 
 /// The arm with `more` kg at the end of link 3.
 fn loaded(generation: &Generation, more: f64) -> Arm {
-    generation.uncertainty.at(&generation.arm, &[more])
+    generation.uncertainty().at(generation.arm(), &[more])
 }
 
 fn same_regression<M: AdaptiveModel<3, 1, Scalar = f64>>(
@@ -29,7 +29,7 @@ fn same_regression<M: AdaptiveModel<3, 1, Scalar = f64>>(
     nominal: f64,
 ) {
     let made = generation(name);
-    let regressor = made.regressor.as_ref().unwrap();
+    let regressor = made.regressor().unwrap();
     let mut random = Random::new(31);
     let mut worst = 0.0_f64;
     for _ in 0..1000 {
@@ -45,7 +45,7 @@ fn same_regression<M: AdaptiveModel<3, 1, Scalar = f64>>(
     }
     println!("{name}: same bits as its graph at 1000 states; base + Yθ is its torque to {worst:.1e}");
     assert!(worst < 1e-12, "{worst:e}");
-    let adaptation = made.design.as_ref().unwrap().adaptation.as_ref().unwrap();
+    let adaptation = made.design().unwrap().adaptation.as_ref().unwrap();
     assert_eq!(
         [law.low, law.high, law.initial, law.rate].concat(),
         [&adaptation.low[..], &adaptation.high, &adaptation.initial, &adaptation.rate].concat()

@@ -1,8 +1,8 @@
 //! Bounds and the design that rests on them: ΔC and k*.
 
-use gramforge::bounds::Bounds;
-use gramforge::lagrangian::evaluate;
-use gramforge::measure::Measure;
+use gramforge::internals::bounds::Bounds;
+use gramforge::internals::domain::Measure;
+use gramforge::internals::lagrangian::evaluate;
 use gramforge_tests::generation;
 use gramforge_tests::random::Random;
 use nalgebra::DMatrix;
@@ -14,9 +14,9 @@ fn an_exact_model_has_zero_bounds() {
         let h = bounds.h.iter().flatten().flatten();
         bounds.d.iter().flatten().chain(h).chain(&bounds.g).all(|&x| x == 0.0)
     };
-    assert!(zero(&exact.bounds));
-    assert_eq!(exact.design.unwrap().k_star, 0.0);
-    assert!(!zero(&generation("arm3_xi2").bounds));
+    assert!(zero(exact.bounds()));
+    assert_eq!(exact.design().unwrap().k_star, 0.0);
+    assert!(!zero(generation("arm3_xi2").bounds()));
 }
 
 #[test]
@@ -33,9 +33,9 @@ fn no_bound_is_below_what_the_measure_has_seen() {
         "stanford",
     ] {
         let made = generation(spec);
-        let (lagrangian, reduced) = (&made.lagrangian, &made.reduced);
-        let deltas: Vec<f64> = made.certificates.iter().map(|proof| proof.bound).collect();
-        let measure = Measure::new(&made.domain, made.motion.as_ref(), &made.arm);
+        let (lagrangian, reduced) = (made.lagrangian(), made.reduced());
+        let deltas: Vec<f64> = made.certificates().iter().map(|proof| proof.bound).collect();
+        let measure = Measure::new(made.domain(), made.arm());
         let residuals: Vec<_> = (0..deltas.len()).map(|m| reduced.residual(lagrangian, m)).collect();
         let mut tightest = 0.0_f64;
         for q in &measure.points {
@@ -56,9 +56,9 @@ fn no_bound_is_below_what_the_measure_has_seen() {
 #[test]
 fn coriolis_bounds_are_equation_30() {
     let made = generation("puma560_xi12");
-    let design = made.design.unwrap();
-    let (h, speed) = (&made.bounds.h, &design.envelope.speed);
-    let desired = made.motion.unwrap().largest_speed();
+    let design = made.design().unwrap();
+    let (h, speed) = (&made.bounds().h, &design.envelope.speed);
+    let desired = made.motion().unwrap().largest_speed();
     for i in 0..6 {
         assert!(speed[i] >= desired[i]);
         for j in 0..6 {
@@ -75,7 +75,8 @@ fn coriolis_bounds_are_equation_30() {
 fn k_star_is_enough_and_no_less_is() {
     let mut random = Random::new(7);
     for spec in ["arm3_xi1", "arm3_xi2", "puma560_xi6", "stanford"] {
-        let design = generation(spec).design.unwrap();
+        let made = generation(spec);
+        let design = made.design().unwrap();
         let n = design.delta_c.len();
         // λ_min(k·I + sym δC), δC_ij = part(i, j) ΔC_ij.
         let smallest = |k: f64, part: &mut dyn FnMut() -> f64| {

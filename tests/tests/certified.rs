@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 use attack::{Seen, attack, violations};
 use gramforge::Generation;
-use gramforge::bounds::{Effort, Rates, torque_error};
+use gramforge::internals::bounds::{Effort, Rates, torque_error};
 use gramforge::load::{load, parse};
 use space::Space;
 use worth::worths;
@@ -52,19 +52,20 @@ fn generation(path: &str, effort: &Effort) -> Generation {
 
 /// Every claim of the certificates of `generation`.
 fn check(generation: &Generation, demand: &Demand) {
-    let Generation { lagrangian, reduced, certificates, .. } = generation;
-    let name = &generation.loaded.spec.name;
+    let (lagrangian, reduced, certificates) =
+        (generation.lagrangian(), generation.reduced(), generation.certificates());
+    let name = &generation.spec().name;
     for (m, certificate) in certificates.iter().enumerate().filter(|(m, _)| !reduced.simplified[*m]) {
         // Where the arm's rotations were rounded, that is all there is.
-        let most = if generation.arm == generation.given { 0.0 } else { 1e-9 };
+        let most = if generation.arm() == generation.given() { 0.0 } else { 1e-9 };
         assert!(certificate.bound <= most, "{name}: coefficient {m} is exact");
     }
-    let worths = match &generation.motion {
+    let worths = match &generation.motion() {
         Some(motion) => worths(generation, motion),
         // The positions of a workspace have no peak torque of their own: that of the same arm's motion is smaller.
         None => {
             let tube = self::generation("generated/specs/puma560_xi12.json", &Effort::default());
-            worths(generation, tube.motion.as_ref().unwrap())
+            worths(generation, tube.motion().unwrap())
         }
     };
     let seen = attack(generation, demand.states, demand.starts);
@@ -114,12 +115,12 @@ fn check(generation: &Generation, demand: &Demand) {
 
 /// Fails unless the check does wherever a sharp bound is made smaller by two percent, and there alone.
 fn shrunk_bounds_are_caught(generation: &Generation, seen: &[Seen]) {
-    let bounds: Vec<f64> = generation.certificates.iter().map(|certificate| certificate.bound).collect();
+    let bounds: Vec<f64> = generation.certificates().iter().map(|certificate| certificate.bound).collect();
     for Seen { m, .. } in seen {
         let mut shrunk = bounds.clone();
         shrunk[*m] *= 0.98;
         let caught = violations(&shrunk, seen);
-        let sharp = generation.certificates[*m].ratio() < 1.02;
+        let sharp = generation.certificates()[*m].ratio() < 1.02;
         assert!(caught == [*m] || !sharp && caught.is_empty(), "coefficient {m}: {caught:?}");
     }
 }
@@ -176,10 +177,17 @@ fn no_state_exceeds_the_torque_error() {
         ["generated/specs/puma560_xi6.json", "tests/data/stanford.json", "generated/specs/arm3_xi1.json"]
     {
         let generation = generation(spec, &Effort::default());
-        let Generation { arm, lagrangian, reduced, domain, motion, certificates, .. } = &generation;
+        let (arm, lagrangian, reduced, domain, motion, certificates) = (
+            generation.arm(),
+            generation.lagrangian(),
+            generation.reduced(),
+            generation.domain(),
+            generation.motion(),
+            generation.certificates(),
+        );
         let motion = motion.as_ref().unwrap();
         let rates = Rates::of(motion);
-        let most = torque_error(lagrangian, reduced, domain, Some(motion), certificates, &rates);
+        let most = torque_error(lagrangian, reduced, domain, certificates, &rates);
         let space = Space::new(&generation);
         let n = arm.dof();
         let mut seen = vec![0.0_f64; n];
@@ -213,12 +221,12 @@ fn the_bounds_do_not_depend_on_the_number_of_threads() {
     let several = generation(spec, &Effort::default());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let one = pool.install(|| generation(spec, &Effort::default()));
-    assert_eq!(several.certificates, one.certificates);
+    assert_eq!(several.certificates(), one.certificates());
 }
 
 #[test]
 fn a_spent_budget_still_leaves_a_certificate() {
-    let hasty = generation("generated/specs/puma560_xi6.json", &Effort { boxes: 8, ..Effort::default() });
+    let hasty = generation("generated/specs/puma560_xi6.json", &Effort::default().boxes(8));
     let any = f64::INFINITY;
     check(&hasty, &Demand { states: 2_000, median: any, worst: any, rest: any, ..LIGHT });
 }

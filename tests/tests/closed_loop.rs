@@ -1,12 +1,13 @@
 //! The report's example in closed loop: what its figures claim, and the same run through the generated modules.
 
 use gramforge::Generation;
-use gramforge::simulate::{ArmModel, Comparison, Run, Scenario, simulate};
+use gramforge::internals::simulate::{ArmModel, Comparison, Run, Scenario, simulate};
 use gramforge_generated::{arm3_exact, arm3_xi2};
 use gramforge_runtime::Model;
 use gramforge_runtime::reference::Reference;
 use gramforge_runtime::simulate::{JointState, RigidPlant, Simulation};
-use gramforge_tests::{difference, generation, largest};
+use gramforge_tests::{difference, edited, generation, largest};
+use serde_json::json;
 
 fn run(generation: &Generation) -> Comparison {
     let scenario = Scenario::of(generation);
@@ -58,10 +59,9 @@ fn v_falls_down_to_the_ripple_of_the_held_torque() {
 
 #[test]
 fn a_boundary_layer_removes_the_chatter() {
-    let mut generation = generation("arm3_xi2");
-    let sign = run(&generation).law;
-    generation.design.as_mut().expect("a controller").boundary_layer = Some(vec![0.05; 3]);
-    let layer = run(&generation).law;
+    let sign = run(&generation("arm3_xi2")).law;
+    let with_layer = edited("arm3_xi2", |spec| spec["control"]["boundary_layer"] = json!(0.05)).unwrap();
+    let layer = run(&with_layer).law;
     let variation = |run: &Run| run.metrics.torque_total_variation[0];
     println!(
         "total variation of the torque of joint 1: {:.0} N·m, with a layer of 0.05 {:.1} N·m",
@@ -88,7 +88,7 @@ fn the_generated_modules_give_the_same_run() {
     let generation = generation("arm3_xi2");
     let torque = run(&generation).law.trace.torque;
     let simulated = torque.concat();
-    let same_plant = through_modules(ArmModel::new(&generation.arm).unwrap(), torque.len());
+    let same_plant = through_modules(ArmModel::new(generation.arm()).unwrap(), torque.len());
     assert!(simulated.iter().zip(&same_plant).all(|(a, b)| a.to_bits() == b.to_bits()));
     // The generated plant is the same arm in another order of operations.
     let own_plant = through_modules(arm3_exact::Arm3Exact, torque.len());

@@ -1,7 +1,7 @@
 //! Sizes of the exact models: p functions, r distinct coefficients, terms, operations.
 
-use gramforge::body::recursive;
-use gramforge::lagrangian::expand;
+use gramforge::internals::lagrangian::expand;
+use gramforge::internals::torque::recursive;
 use gramforge_tests::arm;
 
 #[test]
@@ -19,8 +19,9 @@ fn the_models_have_their_known_sizes() {
         let with = expand(&arm);
         arm.joints.iter_mut().for_each(|joint| joint.armature = 0.0);
         let without = expand(&arm);
-        let size =
-            |l: &gramforge::lagrangian::Lagrangian| (l.functions.len(), l.coefficients.len(), l.terms());
+        let size = |l: &gramforge::internals::lagrangian::Lagrangian| {
+            (l.functions.len(), l.coefficients.len(), l.terms())
+        };
         println!("{name}: p, r, terms = {:?}; without rotors {:?}", size(&with), size(&without));
         let (p, r, terms) = size(&without);
         assert_eq!(p, functions, "{name}");

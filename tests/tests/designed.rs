@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use gramforge::Generation;
-use gramforge::design::Design;
+use gramforge::internals::control::Design;
+use gramforge::internals::simulate::{Comparison, Scenario, simulate};
 use gramforge::load::parse;
-use gramforge::simulate::{Comparison, Scenario, simulate};
 use serde_json::{Value, json};
 
 const ARM3: &str = include_str!("../../generated/specs/arm3_xi2.json");
@@ -32,7 +32,7 @@ fn run(generation: &Generation) -> Comparison {
 
 /// Asserts that the guarantee holds, that no error leaves `tube`, and that after `time` all are below 1/20 of `error`.
 fn judge(name: &str, generation: &Generation, tube: f64, time: f64, error: f64) {
-    let design = generation.design.as_ref().unwrap();
+    let design = generation.design().unwrap();
     assert!(design.guarantee.holds, "{name}: {:?}", design.guarantee.reasons);
     assert!(design.period < design.guarantee.period_max);
     assert!(design.envelope.position_error.iter().all(|e| *e <= tube), "{name}: {:?}", design.envelope);
@@ -77,7 +77,7 @@ fn three_link(law: &str, time: f64, period: Option<f64>) {
         v["simulation"] = json!({ "duration": 2.5, "substeps": 4 });
     };
     let generation = ask(ARM3, law, wish, 0.03, edit).unwrap();
-    show(generation.design.as_ref().unwrap());
+    show(generation.design().unwrap());
     judge(law, &generation, 0.09, time, 0.03);
     assert!(generation.module().unwrap().contains("pub const GUARANTEED: bool = true;"));
 }
@@ -109,7 +109,7 @@ fn the_puma_gets_gains_that_hold_and_its_wrist_gets_less() {
         }
     };
     let generation = ask(PUMA, "tight", wish, 0.02, smooth).unwrap();
-    let design = generation.design.as_ref().unwrap();
+    let design = generation.design().unwrap();
     show(design);
     judge("tight", &generation, 0.1, 1.0, 0.02);
     let damping = diagonal(&design.gains.damping);
@@ -127,7 +127,8 @@ fn the_puma_gets_gains_that_hold_and_its_wrist_gets_less() {
 #[test]
 fn gains_that_were_found_are_judged_like_given_ones() {
     let wish = json!({ "convergence_time": 1.5, "period": 0.002 });
-    let found = ask(ARM3, "tight", wish, 0.02, |_| {}).unwrap().design.unwrap();
+    let made = ask(ARM3, "tight", wish, 0.02, |_| {}).unwrap();
+    let found = made.design().unwrap();
     let given = ask(ARM3, "tight", json!(null), 0.02, |v| {
         v["control"].as_object_mut().unwrap().remove("design");
         v["control"]["period"] = json!(found.period);
@@ -137,7 +138,7 @@ fn gains_that_were_found_are_judged_like_given_ones() {
         v["control"]["boundary_layer"] = json!(found.boundary_layer);
     })
     .unwrap();
-    assert_eq!(given.design.unwrap(), found);
+    assert_eq!(given.design().unwrap(), found);
 }
 
 #[test]

@@ -4,13 +4,13 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use gramforge::Generation;
-use gramforge::body::Form;
-use gramforge::bounds::{Effort, Rates};
-use gramforge::lagrangian::Values;
+use gramforge::internals::bounds::{Effort, Rates};
+use gramforge::internals::domain::Domain;
+use gramforge::internals::lagrangian::Values;
+use gramforge::internals::numerics::low_discrepancy::LowDiscrepancy;
+use gramforge::internals::torque::Form;
 use gramforge::load::load;
-use gramforge::measure::Domain;
 use gramforge::spec::ModelSpec;
-use gramforge::spread::Spread;
 
 const TOLERANCE: f64 = 0.05;
 
@@ -19,7 +19,7 @@ fn made(torque: f64) -> Generation {
     let mut loaded = load(&file).unwrap();
     loaded.spec.control = None;
     loaded.spec.model = ModelSpec::Tolerance { torque };
-    Generation::with_effort(loaded, &Effort { boxes: 500, ..Effort::default() }).unwrap()
+    Generation::with_effort(loaded, &Effort::default().boxes(500)).unwrap()
 }
 
 /// A UR5 at 5 %.
@@ -33,11 +33,11 @@ type State = [Vec<f64>; 4];
 
 /// States of the tube, rates in corners of their box.
 fn states(generation: &Generation, count: usize) -> impl Iterator<Item = State> + '_ {
-    let motion = generation.motion.as_ref().unwrap();
-    let Domain::Tube(errors) = &generation.domain else { panic!("no tube") };
-    let n = generation.arm.dof();
+    let motion = generation.motion().unwrap();
+    let Domain::Tube(_, errors) = generation.domain() else { panic!("no tube") };
+    let n = generation.arm().dof();
     let rates = Rates::of(motion);
-    let spread = Spread::new(n + 1);
+    let spread = LowDiscrepancy::new(n + 1);
     (0..count).map(move |index| {
         let mut unit = spread.point(index);
         if index % 3 == 0 {
@@ -63,25 +63,25 @@ fn torque(values: &Values, [_, v, w, a]: &State) -> Vec<f64> {
 #[test]
 fn parameters_are_left_out_and_that_pays() {
     let generation = generation();
-    let dropped = generation.reduced.dropped.as_ref().expect("a recursion of a simpler arm");
-    assert_eq!(generation.form, Form::Recursive);
-    assert!(!dropped.parameters.is_empty() && generation.reduced.simplified.contains(&true));
-    assert!(generation.code.operations().price() < generation.exact_code.operations().price());
+    let simplified_arm = generation.reduced().simplified_arm().expect("a recursion of a simpler arm");
+    assert_eq!(generation.form(), Form::Recursive);
+    assert!(!simplified_arm.parameters.is_empty() && generation.reduced().simplified.contains(&true));
+    assert!(generation.code().operations().cost() < generation.exact_code().operations().cost());
 }
 
 /// Nearer than 1e-11 of the peak, and within the rounding that the certificates allow for.
 #[test]
 fn the_code_computes_the_combinations() {
     let generation = generation();
-    let peak = &generation.torque.as_ref().unwrap().peak;
-    let rounding = &generation.reduced.dropped.as_ref().unwrap().rounding;
+    let peak = &generation.torque().unwrap().peak;
+    let rounding = &generation.reduced().simplified_arm().unwrap().rounding;
     let multipliers: Vec<Vec<f64>> = (0..peak.len())
-        .map(|i| Rates::of(generation.motion.as_ref().unwrap()).multipliers(&generation.lagrangian, i))
+        .map(|i| Rates::of(generation.motion().unwrap()).multipliers(generation.lagrangian(), i))
         .collect();
     for state in states(generation, 300) {
-        let values = generation.lagrangian.at_with(&generation.reduced.combinations, &state[0]);
+        let values = generation.lagrangian().at_with(&generation.reduced().combinations, &state[0]);
         let expected = torque(&values, &state);
-        let computed = generation.code.interpret(&state[0], &state[1], &state[2], &state[3]);
+        let computed = generation.code().interpret(&state[0], &state[1], &state[2], &state[3]);
         for i in 0..peak.len() {
             let off = (computed[i] - expected[i]).abs();
             let allowed: f64 = rounding.iter().zip(&multipliers[i]).map(|(r, u)| r * u).sum();
@@ -93,12 +93,12 @@ fn the_code_computes_the_combinations() {
 #[test]
 fn no_state_exceeds_the_certificates() {
     let generation = generation();
-    let known = generation.torque.as_ref().unwrap();
+    let known = generation.torque().unwrap();
     assert!(known.fraction() <= TOLERANCE);
     let mut worst = 0.0_f64;
     for state in states(generation, 20_000) {
-        let model = generation.code.interpret(&state[0], &state[1], &state[2], &state[3]);
-        let exact = generation.exact_code.interpret(&state[0], &state[1], &state[2], &state[3]);
+        let model = generation.code().interpret(&state[0], &state[1], &state[2], &state[3]);
+        let exact = generation.exact_code().interpret(&state[0], &state[1], &state[2], &state[3]);
         for i in 0..model.len() {
             let error = (model[i] - exact[i]).abs();
             assert!(error <= known.error[i] + 1e-11 * known.peak[i], "joint {}: {error}", i + 1);
@@ -113,11 +113,11 @@ fn no_state_exceeds_the_certificates() {
 fn no_coefficient_exceeds_its_certificate() {
     let generation = generation();
     for state in states(generation, 500) {
-        let psi = generation.lagrangian.evaluate_functions(&state[0]);
-        for (m, certificate) in generation.certificates.iter().enumerate() {
-            let left = generation.reduced.residual(&generation.lagrangian, m);
-            let left = gramforge::lagrangian::evaluate(&left, &psi).abs();
-            assert!(!generation.reduced.simplified[m] || left <= certificate.bound);
+        let psi = generation.lagrangian().evaluate_functions(&state[0]);
+        for (m, certificate) in generation.certificates().iter().enumerate() {
+            let left = generation.reduced().residual(generation.lagrangian(), m);
+            let left = gramforge::internals::lagrangian::evaluate(&left, &psi).abs();
+            assert!(!generation.reduced().simplified[m] || left <= certificate.bound);
         }
     }
 }
@@ -126,14 +126,14 @@ fn no_coefficient_exceeds_its_certificate() {
 fn the_same_with_one_thread() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let one = pool.install(|| made(TOLERANCE));
-    assert_eq!(one.reduced, generation().reduced);
+    assert_eq!(one.reduced(), generation().reduced());
     assert_eq!(one.module().unwrap(), generation().module().unwrap());
 }
 
 #[test]
 fn a_looser_tolerance_costs_no_more() {
-    let price = |generation: &Generation| generation.code.operations().price();
+    let cost = |generation: &Generation| generation.code().operations().cost();
     let strict = made(0.01);
-    assert!(price(&strict) <= strict.exact_code.operations().price());
-    assert!(price(generation()) <= price(&strict));
+    assert!(cost(&strict) <= strict.exact_code().operations().cost());
+    assert!(cost(generation()) <= cost(&strict));
 }

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use gramforge::Generation;
+use gramforge::internals::simulate::{Run, Scenario, simulate};
 use gramforge::load::parse;
-use gramforge::simulate::{Run, Scenario, simulate};
 use serde_json::{Value, json};
 
 const ARM3: &str = include_str!("../../generated/specs/arm3_xi2.json");
@@ -45,7 +45,7 @@ fn a_rhythm_that_samples_miss_still_lags() {
     // At 5 Hz the lag may take the errors out of the tube, as far as the level of V can say.
     for (hertz, duration, holds) in [(2.0, 200.0, true), (2.0, 5.0, true), (5.0, 200.0, false)] {
         let generation = generate(ARM3, |v| rhythm(v, hertz, duration)).unwrap();
-        let guarantee = &generation.design.as_ref().unwrap().guarantee;
+        let guarantee = &generation.design().unwrap().guarantee;
         let run = run(&generation);
         let late = run.trace.time.len() / 2;
         let error =
@@ -71,7 +71,7 @@ fn a_rhythm_that_samples_miss_still_lags() {
 fn a_longer_rhythm_lags_no_less() {
     let last = |duration: f64| {
         let generation = generate(ARM3, |v| rhythm(v, 2.0, duration)).unwrap();
-        generation.design.unwrap().guarantee.final_error
+        generation.design().unwrap().guarantee.final_error.clone()
     };
     let (short, long) = (last(1.0), last(200.0));
     println!("{short:.6?} {long:.6?}");
@@ -96,7 +96,7 @@ fn limited(limit: f64, error: f64) -> Generation {
 fn a_torque_limit_that_the_first_step_goes_beyond_voids_the_guarantee() {
     // The motion takes next to nothing of the upright joint 1, the start asks K P12 e − Pqq e = 42.5 · 4 · 0.03 − 0.3.
     let weak = limited(4.0, 0.03);
-    let guarantee = &weak.design.as_ref().unwrap().guarantee;
+    let guarantee = &weak.design().unwrap().guarantee;
     assert!(!guarantee.holds);
     let reason = "the initial errors may ask ";
     assert!(
@@ -106,11 +106,11 @@ fn a_torque_limit_that_the_first_step_goes_beyond_voids_the_guarantee() {
     );
     assert!(run(&weak).metrics.saturated_steps > 0);
     let strong = limited(8.0, 0.03);
-    let guarantee = &strong.design.as_ref().unwrap().guarantee;
+    let guarantee = &strong.design().unwrap().guarantee;
     assert!(guarantee.holds, "{:?}", guarantee.reasons);
     assert_eq!(run(&strong).metrics.saturated_steps, 0);
     // With less error the weak drive will do.
-    assert!(limited(4.0, 0.01).design.unwrap().guarantee.holds);
+    assert!(limited(4.0, 0.01).design().unwrap().guarantee.holds);
 }
 
 #[test]
@@ -138,9 +138,9 @@ fn gains_on_request_spare_the_drives_or_say_why_not() {
 #[test]
 fn the_rates_of_the_torque_error_are_stated_and_those_that_the_law_meets() {
     let generation = generate(PUMA, |_| {}).unwrap();
-    let (torque, met) = (generation.torque.as_ref().unwrap(), generation.met.as_ref().unwrap());
-    let design = generation.design.as_ref().unwrap();
-    let motion = generation.motion.as_ref().unwrap();
+    let (torque, met) = (generation.torque().unwrap(), generation.met().unwrap());
+    let design = generation.design().unwrap();
+    let motion = generation.motion().unwrap();
     for k in 0..=1000 {
         let target = motion.at(motion.duration() * f64::from(k) / 1000.0);
         for i in 0..6 {
@@ -171,7 +171,7 @@ fn the_rates_of_the_torque_error_are_stated_and_those_that_the_law_meets() {
     let text = generation.module().unwrap();
     assert!(text.contains("It holds for speeds up to (") && text.contains("Torque error that the law meets"));
     let alone = generate(PUMA, |v| drop(v.as_object_mut().unwrap().remove("control"))).unwrap();
-    assert!(alone.met.is_none() && alone.module().unwrap().contains("not available without a controller"));
+    assert!(alone.met().is_none() && alone.module().unwrap().contains("not available without a controller"));
 }
 
 /// A switching gain is made of the bounds, so these are as sharp as those of a shared model.
@@ -185,8 +185,8 @@ fn the_bounds_of_a_switching_law_are_sharp_whatever_the_model() {
         });
     })
     .unwrap();
-    assert!(!generation.reduced.is_exact());
-    let ratio = gramforge::bounds::worst_ratio(&generation.lagrangian, &generation.certificates);
+    assert!(!generation.reduced().is_exact());
+    let ratio = gramforge::internals::bounds::worst_ratio(generation.lagrangian(), generation.certificates());
     println!("bound over largest value found: {ratio:.4}");
     assert!((1.0..=1.0101).contains(&ratio));
 }

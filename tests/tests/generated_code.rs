@@ -59,10 +59,10 @@ fn agrees<const N: usize>(
         let (q, qd) = (random.array::<N>(3.2), random.array(5.0));
         let (v_r, a_r) = (random.array(5.0), random.array(20.0));
         let compiled = model.passivity_torque(&q, &qd, &v_r, &a_r);
-        let interpreted: [f64; N] = array(&made.code.interpret(&q, &qd, &v_r, &a_r));
+        let interpreted: [f64; N] = array(&made.code().interpret(&q, &qd, &v_r, &a_r));
         assert_eq!(compiled.map(f64::to_bits), interpreted.map(f64::to_bits), "{name} at {q:?}");
     }
-    let motion = made.motion.as_ref().expect("every specification here has a motion");
+    let motion = made.motion().expect("every specification here has a motion");
     assert_eq!(reference.duration(), motion.duration());
     reference.check().unwrap();
     for k in 0..1000 {
@@ -82,18 +82,18 @@ fn constants<const N: usize>(
     counts: [usize; 4],
     psi: &[&str],
 ) {
-    let operations = made.code.operations();
-    let names: Vec<String> = match &made.reduced.sparse {
-        Some(model) => model.functions.iter().map(|psi| psi.formula(&made.lagrangian)).collect(),
-        None => made.reduced.selected.iter().map(|&l| made.lagrangian.functions[l].to_string()).collect(),
+    let operations = made.code().operations();
+    let names: Vec<String> = match made.reduced().sparse() {
+        Some(model) => model.functions.iter().map(|psi| psi.formula(made.lagrangian())).collect(),
+        None => made.reduced().selected.iter().map(|&l| made.lagrangian().functions[l].to_string()).collect(),
     };
     assert_eq!(psi, names);
     assert_eq!(counts, [names.len(), operations.mul, operations.add, operations.trig_pairs]);
-    assert_eq!(bounds.d.concat(), made.bounds.d.concat());
-    assert_eq!(bounds.h.concat().concat(), made.bounds.h.concat().concat());
-    assert_eq!(bounds.g, made.bounds.g[..]);
+    assert_eq!(bounds.d.concat(), made.bounds().d.concat());
+    assert_eq!(bounds.h.concat().concat(), made.bounds().h.concat().concat());
+    assert_eq!(bounds.g, made.bounds().g[..]);
     assert_eq!(bounds.b, [0.0; N]);
-    let friction: Vec<f64> = made.arm.joints.iter().map(|joint| joint.viscous_friction).collect();
+    let friction: Vec<f64> = made.arm().joints.iter().map(|joint| joint.viscous_friction).collect();
     assert_eq!(viscous, &friction[..]);
 }
 
@@ -121,10 +121,16 @@ fn modules_of_a_build_script_agree_with_their_generation() {
     module!(puma3_union, Puma3Union);
     module!(puma3_tolerance, Puma3Tolerance);
     module!(stanford_tolerance, StanfordTolerance);
-    let sparse = generation("puma3_tolerance").reduced.sparse;
-    assert!(sparse.is_some_and(|model| model.absolute.is_some()), "a sparse model in absolute angles");
-    assert!(generation("stanford_tolerance").reduced.dropped.is_some(), "the recursion of a simpler arm");
-    assert_eq!(generation("puma3_union").form.name(), "sparse");
+    let made = generation("puma3_tolerance");
+    assert!(
+        made.reduced().sparse().is_some_and(|model| model.absolute.is_some()),
+        "a sparse model in absolute angles"
+    );
+    assert!(
+        generation("stanford_tolerance").reduced().simplified_arm().is_some(),
+        "the recursion of a simpler arm"
+    );
+    assert_eq!(generation("puma3_union").form().name(), "sparse");
     for ready in [ur5::controller().is_ok(), stanford::controller().is_ok(), arm3_csv::controller().is_ok()] {
         assert!(ready);
     }

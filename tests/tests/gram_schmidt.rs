@@ -1,10 +1,12 @@
 //! The selection (3)–(8) against dense QR factorisations made anew at every step, and what follows from its theory.
 
-use gramforge::arm::Arm;
-use gramforge::lagrangian::{Lagrangian, evaluate, expand};
-use gramforge::measure::{Domain, Measure};
-use gramforge::motion::Motion;
-use gramforge::reduction::{GramSchmidt, Reduced, Samples, shared, weight};
+use std::sync::Arc;
+
+use gramforge::internals::arm::Arm;
+use gramforge::internals::domain::{Domain, Measure};
+use gramforge::internals::lagrangian::{Lagrangian, evaluate, expand};
+use gramforge::internals::motion::Motion;
+use gramforge::internals::reduction::{GramSchmidt, Reduced, Samples, shared, weight};
 use gramforge_tests::random::Random;
 use gramforge_tests::{arm, difference, largest, motion};
 use nalgebra::{DMatrix, DVector};
@@ -13,21 +15,21 @@ use nalgebra::{DMatrix, DVector};
 struct Case {
     arm: Arm,
     lagrangian: Lagrangian,
-    motion: Motion,
+    motion: Arc<Motion>,
 }
 
 impl Case {
     fn of(spec: &str) -> Self {
         let arm = arm(spec);
-        Self { lagrangian: expand(&arm), motion: motion(spec), arm }
+        Self { lagrangian: expand(&arm), motion: Arc::new(motion(spec)), arm }
     }
 
     fn measure(&self, domain: &Domain) -> Measure {
-        Measure::new(domain, Some(&self.motion), &self.arm)
+        Measure::new(domain, &self.arm)
     }
 
     fn tube(&self, error: f64) -> Measure {
-        self.measure(&Domain::Tube(vec![error; self.arm.dof()]))
+        self.measure(&Domain::Tube(self.motion.clone(), vec![error; self.arm.dof()]))
     }
 }
 
@@ -148,7 +150,7 @@ fn all_functions_reproduce_the_model() {
         let p = lagrangian.functions.len();
         assert_eq!(
             shared(lagrangian, &measure, p).combinations,
-            gramforge::reduction::exact(lagrangian).combinations
+            gramforge::internals::reduction::exact(lagrangian).combinations
         );
 
         let samples = Samples::new(lagrangian, &measure);
@@ -178,9 +180,10 @@ fn all_functions_reproduce_the_model() {
 fn dependent_functions_are_skipped() {
     let mut case = Case::of("arm3_exact");
     // Along a path on which joint 3 rests, cos q3 is a constant.
-    case.motion = Motion::Quintic { from: vec![0.0, 0.3, -1.2], to: vec![1.5, 1.2, -1.2], duration: 5.0 };
+    case.motion =
+        Arc::new(Motion::Quintic { from: vec![0.0, 0.3, -1.2], to: vec![1.5, 1.2, -1.2], duration: 5.0 });
     for case in [case, Case::of("puma560_exact")] {
-        let measure = case.measure(&Domain::Trajectory);
+        let measure = case.measure(&Domain::Path(case.motion.clone()));
         let samples = Samples::new(&case.lagrangian, &measure);
         let mut selection = GramSchmidt::new(&samples);
         while selection.step(&vec![1.0; case.lagrangian.coefficients.len()]).is_some() {}
@@ -197,7 +200,7 @@ fn dependent_functions_are_skipped() {
 fn a_thin_tube_is_the_trajectory() {
     let case = Case::of("arm3_xi2");
     for functions in 1..=3 {
-        let path = shared(&case.lagrangian, &case.measure(&Domain::Trajectory), functions);
+        let path = shared(&case.lagrangian, &case.measure(&Domain::Path(case.motion.clone())), functions);
         assert_eq!(shared(&case.lagrangian, &case.tube(0.0), functions), path);
         let thin = apart(&case.lagrangian, &path, &shared(&case.lagrangian, &case.tube(1e-12), functions));
         println!("{functions} functions: a tube of 1e-12 rad is {thin:.1e} from the trajectory");
@@ -210,14 +213,14 @@ fn a_tube_as_wide_as_the_joint_box_is_the_workspace() {
     let mut case = Case::of("arm3_xi2");
     let limits = [[-1.0, 2.0], [-0.5, 1.5], [-2.5, -0.3]];
     let middle: Vec<f64> = limits.iter().map(|[low, high]| 0.5 * (low + high)).collect();
-    case.motion = Motion::Quintic { from: middle.clone(), to: middle, duration: 1.0 };
+    case.motion = Arc::new(Motion::Quintic { from: middle.clone(), to: middle, duration: 1.0 });
     let half = limits.iter().map(|[low, high]| 0.5 * (high - low)).collect();
     let workspace = case.measure(&Domain::Workspace(limits.to_vec()));
     // An arm at rest has no accelerations to weigh with: both forms get the workspace's.
     let tube = Measure {
         acceleration_square: workspace.acceleration_square.clone(),
         velocity_square: workspace.velocity_square.clone(),
-        ..case.measure(&Domain::Tube(half))
+        ..case.measure(&Domain::Tube(case.motion.clone(), half))
     };
     for functions in 1..=3 {
         let reduce = |measure| shared(&case.lagrangian, measure, functions);
@@ -231,9 +234,9 @@ fn a_tube_as_wide_as_the_joint_box_is_the_workspace() {
 #[test]
 fn weights_are_those_of_equation_2() {
     let case = Case::of("arm3_xi2");
-    let Motion::Quintic { from, to, duration } = &case.motion else { panic!("the motion is a quintic") };
+    let Motion::Quintic { from, to, duration } = &*case.motion else { panic!("the motion is a quintic") };
     let n = from.len();
-    let measure = case.measure(&Domain::Trajectory);
+    let measure = case.measure(&Domain::Path(case.motion.clone()));
     // By the midpoint rule on the closed form 10 s³ − 15 s⁴ + 6 s⁵, over all places of the full matrices.
     let steps = 20_000;
     let mean = |u: &dyn Fn(f64) -> f64| {
@@ -245,7 +248,7 @@ fn weights_are_those_of_equation_2() {
         |j: usize, s: f64| (to[j] - from[j]) / (duration * duration) * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s);
     let mut worst = 0.0_f64;
     for coefficient in &case.lagrangian.coefficients {
-        use gramforge::lagrangian::Entry;
+        use gramforge::internals::lagrangian::Entry;
         let stands = |entry: Entry| coefficient.places.iter().any(|place| place.entry == entry);
         let mut right = 0.0;
         for i in 0..n {

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use gramforge::Generation;
+use gramforge::internals::simulate::{Comparison, Scenario, simulate};
 use gramforge::load::parse;
-use gramforge::simulate::{Comparison, Scenario, simulate};
 use gramforge_generated::{arm3_exact, arm3_xi1, arm3_xi2};
 use gramforge_runtime::law::Sample;
 use gramforge_runtime::reference::Reference;
@@ -116,9 +116,10 @@ fn every_law_is_generated_and_tracks() {
 
 #[test]
 fn a_delta_c1_of_ones_own_is_verified() {
-    let k = generate(|_| {}).unwrap().design.unwrap().k_star;
+    let k = generate(|_| {}).unwrap().design().unwrap().k_star;
     let with = |factor: f64| generate(|v| v["control"]["delta_c1"] = json!(k * factor));
-    let design = with(1.001).unwrap().design.unwrap();
+    let made = with(1.001).unwrap();
+    let design = made.design().unwrap();
     assert!((design.delta_c1[1][1] - 1.001 * k).abs() < 1e-12);
     let message = with(0.9).unwrap_err();
     assert!(message.contains("control.delta_c1: does not outweigh ΔC"), "{message}");
@@ -152,7 +153,7 @@ fn the_final_error_stays_in_the_published_ball() {
             v["simulation"] = json!({ "duration": 8.0, "substeps": 2 });
         })
         .unwrap();
-        let published = generation.design.as_ref().unwrap().guarantee.final_error.clone();
+        let published = generation.design().unwrap().guarantee.final_error.clone();
         let (last, _) = errors(&run(&generation));
         println!("W {w}, Pqq {pqq}, Ω {omega}, φ {phi}, {law}: {last:.5?} within {published:.5?}");
         assert!(last.iter().zip(&published).all(|(e, p)| e <= p));
@@ -176,7 +177,7 @@ fn the_published_period_is_safe_and_not_timid() {
     };
     for (from, to) in [([0.0, 0.3, -1.2], [1.5, 1.2, -2.2]), ([0.0, 0.3, -0.2], [1.5, 1.2, -0.1])] {
         for w in [20.0, 40.0, 80.0] {
-            let longest = at(from, to, w, 1e-3).design.unwrap().guarantee.period_max;
+            let longest = at(from, to, w, 1e-3).design().unwrap().guarantee.period_max;
             let lost = |factor: f64| {
                 let generation = at(from, to, w, factor * longest);
                 let comparison = run(&generation);
@@ -197,7 +198,7 @@ fn the_published_period_is_safe_and_not_timid() {
         v["control"]["allow_long_period"] = json!(true);
     })
     .unwrap();
-    let guarantee = forced.design.unwrap().guarantee;
+    let guarantee = &forced.design().unwrap().guarantee;
     assert!(!guarantee.holds && guarantee.reasons.iter().any(|r| r.contains("period of 0.05 s")));
 }
 
@@ -212,15 +213,17 @@ fn a_guarantee_ends_at_the_published_initial_error() {
             v["control"]["require_guarantee"] = json!(required);
         })
     };
-    let design = with(0.01, false).unwrap().design.unwrap();
+    let made = with(0.01, false).unwrap();
+    let design = made.design().unwrap();
     let most = design.guarantee.initial_error_max[0];
     println!("largest initial error {most:.4}, {:?}", design.guarantee.reasons);
     assert!(most > 0.0 && design.guarantee.holds);
     let inside = with(0.99 * most, true).unwrap();
-    assert!(inside.design.as_ref().unwrap().guarantee.holds);
+    assert!(inside.design().unwrap().guarantee.holds);
     let (_, all) = errors(&run(&inside));
     assert!(all.iter().all(|e| *e <= 0.2), "{all:?}");
-    let guarantee = with(1.01 * most, false).unwrap().design.unwrap().guarantee;
+    let made = with(1.01 * most, false).unwrap();
+    let guarantee = &made.design().unwrap().guarantee;
     assert!(!guarantee.holds, "{:?}", guarantee.reasons);
     assert!(guarantee.reasons[0].contains("the tube holds 0.2"), "{:?}", guarantee.reasons);
     let message = with(1.01 * most, true).unwrap_err();

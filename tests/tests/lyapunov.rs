@@ -8,9 +8,9 @@ mod closed;
 
 use closed::{Loop, dot, member, report};
 use gramforge::Generation;
-use gramforge::design::Design;
-use gramforge::measure::Domain;
-use gramforge::simulate::GraphModel;
+use gramforge::internals::control::Design;
+use gramforge::internals::domain::Domain;
+use gramforge::internals::simulate::GraphModel;
 use gramforge_generated::arm3_adaptive_guaranteed as adaptive;
 use gramforge_generated::puma560_xi6;
 use gramforge_runtime::law::{Sample, Tracking};
@@ -22,8 +22,8 @@ use serde_json::json;
 
 /// Whether a state is one for which the bounds are given.
 fn inside<const N: usize>(generation: &Generation, sample: &Sample<f64, N>) -> bool {
-    let Domain::Tube(tube) = &generation.domain else { return false };
-    let speed = &generation.design.as_ref().unwrap().envelope.speed;
+    let Domain::Tube(_, tube) = generation.domain() else { return false };
+    let speed = &generation.design().unwrap().envelope.speed;
     (0..N).all(|i| (sample.q[i] - sample.desired.q[i]).abs() <= tube[i] && sample.qd[i].abs() <= speed[i])
 }
 
@@ -55,8 +55,9 @@ fn robust<const N: usize>(
     plants: usize,
     seconds: f64,
 ) {
-    let Generation { arm, code, bounds, design, .. } = generation;
-    let design = design.as_ref().unwrap();
+    let (arm, code, bounds, design) =
+        (generation.arm(), generation.code(), generation.bounds(), generation.design());
+    let design = design.unwrap();
     let law: ReportLaw<f64, N> = report(design);
     let ReportLaw { gains, disturbance, switching, coulomb, .. } = law;
     let tight = TightLaw { gains, disturbance, switching, coulomb };
@@ -129,7 +130,7 @@ fn arm3(law: &str) -> Generation {
 /// Law (46) by its generated module.
 fn learning(plants: usize, seconds: f64) {
     let generation = generation("arm3_adaptive_guaranteed");
-    let design = generation.design.as_ref().unwrap();
+    let design = generation.design().unwrap();
     assert!(design.guarantee.holds);
     let law = adaptive::LAW;
     let Switching::BoundaryLayer(phi) = law.robust.switching else { panic!("a layer") };
@@ -172,7 +173,7 @@ fn learning(plants: usize, seconds: f64) {
 #[test]
 fn v_falls_as_the_proofs_say_on_arms_of_the_family() {
     for law in ["report", "tight"] {
-        assert!(arm3(law).design.unwrap().guarantee.holds, "{law}");
+        assert!(arm3(law).design().unwrap().guarantee.holds, "{law}");
     }
     robust(&arm3("report"), &adaptive::REFERENCE, 0.02, 4, 1.0);
     learning(4, 1.0);
@@ -181,7 +182,7 @@ fn v_falls_as_the_proofs_say_on_arms_of_the_family() {
 #[test]
 fn the_rate_of_v_is_its_derivative() {
     let generation = generation("arm3_adaptive_guaranteed");
-    let plant = generation.uncertainty.at(&generation.arm, &[0.1]);
+    let plant = generation.uncertainty().at(generation.arm(), &[0.1]);
     let closed = Loop::new(&plant, adaptive::LAW.robust.gains);
     let mut random = Random::new(4);
     for k in 0..20 {

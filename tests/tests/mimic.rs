@@ -1,7 +1,8 @@
 //! Arms some of whose joints follow others, against an outside oracle: D, C, G and τ of the coordinates.
 
-use gramforge::body::{expanded, plain, recursive};
-use gramforge::{Generation, dynamics, reduction};
+use gramforge::Generation;
+use gramforge::internals::torque::{expanded, plain, recursive};
+use gramforge::internals::{dynamics, reduction};
 use gramforge_runtime::Model;
 use gramforge_tests::chain::{Chain, Link};
 use gramforge_tests::random::Random;
@@ -65,10 +66,11 @@ fn generation(chain: &Chain, more: &Value) -> Result<Generation, String> {
     Generation::new(loaded).map_err(|error| error.to_string())
 }
 
-fn checked(chain: &Chain) -> gramforge::check::Checked {
+fn checked(chain: &Chain) -> gramforge::internals::check::Checked {
     let folder = tempfile::tempdir().expect("a folder");
     let loaded = loaded(chain, &json!({}), folder.path()).unwrap_or_else(|error| panic!("{error}"));
-    gramforge::check::from_loaded(loaded).unwrap_or_else(|error| panic!("{error}"))
+    gramforge::internals::check::checked(loaded, gramforge::internals::check::Extent::Whole)
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Largest error of each of D, C, G and τ over states, as a part of the largest value.
@@ -119,23 +121,23 @@ fn twenty_random_chains_have_the_oracles_dynamics() {
         let n = chain.dof();
         let made = generation(&chain, &json!({}))
             .unwrap_or_else(|error| panic!("{seed}: {error}\n{}", chain.urdf()));
-        assert_eq!(made.arm.dof(), n);
-        let exact = reduction::exact(&made.lagrangian);
+        assert_eq!(made.arm().dof(), n);
+        let exact = reduction::exact(made.lagrangian());
         let graphs = [
-            ("emitted", made.code.clone()),
-            ("recursive", recursive(&made.arm)),
-            ("plain", plain(&made.arm)),
-            ("expanded", expanded(&made.arm, &made.lagrangian, &exact)),
+            ("emitted", made.code().clone()),
+            ("recursive", recursive(made.arm())),
+            ("plain", plain(made.arm())),
+            ("expanded", expanded(made.arm(), made.lagrangian(), &exact)),
         ];
         let mut all: Vec<(&str, [f64; 4])> = Vec::new();
         all.push((
             "dynamics",
             errors(&chain, seed, |q, qd, qdd| {
                 [
-                    dynamics::mass_matrix(&made.arm, q).concat(),
-                    dynamics::coriolis(&made.arm, q, qd).concat(),
-                    dynamics::gravity(&made.arm, q),
-                    dynamics::inverse_dynamics(&made.arm, q, qd, qdd),
+                    dynamics::mass_matrix(made.arm(), q).concat(),
+                    dynamics::coriolis(made.arm(), q, qd).concat(),
+                    dynamics::gravity(made.arm(), q),
+                    dynamics::inverse_dynamics(made.arm(), q, qd, qdd),
                 ]
             }),
         ));
@@ -219,11 +221,11 @@ fn bounds_hold_where_joints_follow_others() {
         let arm = json!({ "urdf": "arm.urdf", "gravity": chain.gravity, "joints": limits });
         let made = generation(&chain, &json!({ "model": model, "measure": measure, "arm": arm }))
             .unwrap_or_else(|error| panic!("{seed}: {error}"));
-        simplified += made.reduced.simplified.iter().filter(|s| **s).count();
+        simplified += made.reduced().simplified.iter().filter(|s| **s).count();
         let mut random = Random::new(seed + 100);
-        let sides = made.arm.joint_box();
+        let sides = made.arm().joint_box();
         for _ in 0..3000 {
-            let q: Vec<f64> = match (measure["tube"]["position_error"].as_f64(), made.motion.as_ref()) {
+            let q: Vec<f64> = match (measure["tube"]["position_error"].as_f64(), made.motion()) {
                 (Some(width), Some(motion)) => {
                     let at = motion.at(motion.duration() * 0.5 * (1.0 + random.signed())).q;
                     at.iter().map(|q| q + width * random.signed()).collect()
@@ -233,15 +235,15 @@ fn bounds_hold_where_joints_follow_others() {
                     .map(|[low, high]| low + (high - low) * 0.5 * (1.0 + random.signed()))
                     .collect(),
             };
-            let ours = made.lagrangian.at_with(&made.reduced.combinations, &q);
+            let ours = made.lagrangian().at_with(&made.reduced().combinations, &q);
             let (d, g) = (chain.mass_matrix(&q), chain.gravity_torque(&q));
             for i in 0..n {
                 let slack = |x: f64| 1e-12 * (1.0 + x.abs());
                 let error = (ours.gravity[i] - g[i]).abs();
-                assert!(error <= made.bounds.g[i] + slack(g[i]), "{seed} g{i} at {q:?}");
+                assert!(error <= made.bounds().g[i] + slack(g[i]), "{seed} g{i} at {q:?}");
                 for j in 0..n {
                     let error = (ours.mass_matrix[i][j] - d[i][j]).abs();
-                    assert!(error <= made.bounds.d[i][j] + slack(d[i][j]), "{seed} d{i}{j} at {q:?}");
+                    assert!(error <= made.bounds().d[i][j] + slack(d[i][j]), "{seed} d{i}{j} at {q:?}");
                 }
             }
         }

@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use gramforge::Generation;
-use gramforge::bounds::{Effort, certified};
-use gramforge::lagrangian::Lagrangian;
+use gramforge::internals::bounds::{Effort, certified};
+use gramforge::internals::domain::Measure;
+use gramforge::internals::lagrangian::Lagrangian;
+use gramforge::internals::reduction::{Reduced, extremes, minimax, shared, weight};
 use gramforge::load::load;
-use gramforge::measure::Measure;
-use gramforge::reduction::{Reduced, extremes, minimax, shared, weight};
 use gramforge::spec::ModelSpec;
 
 /// The stages up to the measure, of a committed specification.
@@ -16,7 +16,7 @@ fn stages(name: &str) -> (Generation, Measure) {
     let mut loaded = load(&path).expect("a specification");
     loaded.spec.model = ModelSpec::Exact;
     let generation = Generation::new(loaded).expect("a model");
-    let measure = Measure::new(&generation.domain, generation.motion.as_ref(), &generation.arm);
+    let measure = Measure::new(generation.domain(), generation.arm());
     (generation, measure)
 }
 
@@ -29,15 +29,15 @@ fn weighted(lagrangian: &Lagrangian, measure: &Measure, deltas: &[f64]) -> f64 {
 /// Prints Σ√w_m Δα_m for both refits and checks that minimax lowers it by at least the given fraction for each ξ.
 fn assert_lower(name: &str, expected: &[(usize, f64)]) {
     let (generation, measure) = stages(name);
-    let Generation { lagrangian, domain, motion, .. } = &generation;
-    let points = extremes(&measure, domain, motion.as_ref());
+    let (lagrangian, domain) = (generation.lagrangian(), generation.domain());
+    let points = extremes(&measure, domain);
     println!("{name}, refit over {} points\n xi  least squares  minimax  lower by", points.len());
     for &(functions, fraction) in expected {
         let squares = shared(lagrangian, &measure, functions);
         let uniform = minimax(lagrangian, squares.clone(), &points);
         assert_eq!((&uniform.selected, &uniform.simplified), (&squares.selected, &squares.simplified));
         let bound = |reduced: &Reduced| {
-            let proofs = certified(lagrangian, reduced, domain, motion.as_ref(), &Effort::default());
+            let proofs = certified(lagrangian, reduced, domain, &Effort::default());
             weighted(lagrangian, &measure, &proofs.iter().map(|proof| proof.bound).collect::<Vec<_>>())
         };
         let (before, after) = (bound(&squares), bound(&uniform));
@@ -62,8 +62,8 @@ fn bounds_of_the_three_link_arm_fall() {
 #[test]
 fn the_number_of_threads_does_not_matter() {
     let (generation, measure) = stages("puma560_xi12");
-    let Generation { lagrangian, domain, motion, .. } = &generation;
-    let points = extremes(&measure, domain, motion.as_ref());
+    let (lagrangian, domain) = (generation.lagrangian(), generation.domain());
+    let points = extremes(&measure, domain);
     let squares = shared(lagrangian, &measure, 8);
     let refit = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");

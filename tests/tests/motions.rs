@@ -1,6 +1,6 @@
 //! Desired motions of every form: derivatives that are derivatives, and tables that are passed through.
 
-use gramforge::motion::Motion;
+use gramforge::internals::motion::Motion;
 use gramforge_tests::{difference, motion};
 
 /// One specification for each form.

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use gramforge::Effort;
 use gramforge::Generation;
-use gramforge::bounds::Effort;
+use gramforge::internals::control::Design;
+use gramforge::internals::simulate::{Run, Scenario, simulate};
 use gramforge::load::parse;
-use gramforge::simulate::{Run, Scenario, simulate};
 use gramforge_tests::random::Random;
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -37,9 +38,10 @@ fn largest(run: &Run, joint: usize, from: usize) -> f64 {
 const TUBE: f64 = 0.1;
 
 /// Whether the run is lost with `period`, s.
-fn lost(generation: &mut Generation, period: f64) -> bool {
-    generation.design.as_mut().unwrap().period = period;
-    let run = run(generation);
+fn lost(generation: &Generation, period: f64) -> bool {
+    let design = Design { period, ..generation.design().unwrap().clone() };
+    let scenario = Scenario { design: &design, ..Scenario::of(generation).unwrap() };
+    let run = simulate(&scenario).unwrap().law;
     run.metrics.diverged_at.is_some() || (0..3).any(|i| largest(&run, i, 0) > TUBE)
 }
 
@@ -79,10 +81,10 @@ fn sample_periods(cases: usize) {
     let first: Vec<Option<f64>> = (0..cases)
         .into_par_iter()
         .map(|case| {
-            let mut generation = random_loop(case);
-            let longest = generation.design.as_ref().unwrap().guarantee.period_max;
-            assert!(!lost(&mut generation, 0.9 * longest), "case {case} is lost below its longest period");
-            (5..=15).map(|k| 0.2 * f64::from(k)).find(|k| lost(&mut generation, k * longest))
+            let generation = random_loop(case);
+            let longest = generation.design().unwrap().guarantee.period_max;
+            assert!(!lost(&generation, 0.9 * longest), "case {case} is lost below its longest period");
+            (5..=15).map(|k| 0.2 * f64::from(k)).find(|k| lost(&generation, k * longest))
         })
         .collect();
     for elbow in [0, 1] {
@@ -141,7 +143,7 @@ fn errors_end_inside_the_published_ones_while_the_arm_moves() {
             } });
             v["simulation"] = json!({ "duration": 10.0, "substeps": 2 });
         });
-        let published = &generation.design.as_ref().unwrap().guarantee.final_error;
+        let published = &generation.design().unwrap().guarantee.final_error;
         let run = run(&generation);
         let last: Vec<f64> = (0..3).map(|i| largest(&run, i, run.trace.time.len() / 2)).collect();
         println!("W {w}, Pqq {pqq}, Ω {omega}, φ {phi}, {law}: {last:.5?} within {published:.5?}");
@@ -159,7 +161,7 @@ fn a_soft_spring_does_not_blow_up_the_final_error() {
         control["period"] = json!(0.001);
         control["initial_error"] = json!({ "position": 0.02 });
     });
-    let published = &generation.design.as_ref().unwrap().guarantee.final_error;
+    let published = &generation.design().unwrap().guarantee.final_error;
     println!("{published:?}");
     assert!(published.iter().all(|e| *e < 0.03), "{published:?}");
 }
@@ -178,7 +180,7 @@ fn a_torque_limit_below_the_desired_motion_voids_the_guarantee() {
             safe(v);
             v["arm"]["dh"]["links"][1]["limits"] = json!({ "torque": limit });
         });
-        generation.design.unwrap().guarantee
+        generation.design().unwrap().guarantee.clone()
     };
     // The motion takes 42.8 N·m of joint 2, at its start, where the feedback adds up to 1.6 N·m.
     assert!(with(45.0).holds, "{:?}", with(45.0).reasons);
@@ -194,7 +196,7 @@ fn a_torque_limit_below_the_desired_motion_voids_the_guarantee() {
 
 #[test]
 fn the_tube_that_is_said_to_be_enough_is_enough() {
-    let effort = Effort { seek_tube: true, ..Effort::default() };
+    let effort = Effort::default().seek_tube(true);
     let with = |tube: Value| {
         let edit = |v: &mut Value| {
             safe(v);
@@ -203,7 +205,7 @@ fn the_tube_that_is_said_to_be_enough_is_enough() {
             v["measure"]["tube"]["position_error"] = tube.clone();
             v["control"]["initial_error"]["position"] = json!([0.05, 0.03, 0.04]);
         };
-        generate(ARM3, &effort, edit).unwrap().design.unwrap().guarantee
+        generate(ARM3, &effort, edit).unwrap().design().unwrap().guarantee.clone()
     };
     let narrow = with(json!(0.06));
     assert!(!narrow.holds && narrow.reasons[0].contains("the tube holds 0.06"), "{:?}", narrow.reasons);
@@ -220,6 +222,7 @@ fn the_tube_that_is_said_to_be_enough_is_enough() {
 fn the_guarantee_of_the_puma_ends_at_the_published_initial_error() {
     let with = |error: f64| {
         let edit = |v: &mut Value| {
+            v["simulation"] = json!({ "duration": 0.2, "substeps": 2 });
             // The motors do not bear what these gains ask of them in the first step: this is about the tube.
             for link in v["arm"]["dh"]["links"].as_array_mut().unwrap() {
                 link["limits"].as_object_mut().unwrap().remove("torque");
@@ -232,16 +235,14 @@ fn the_guarantee_of_the_puma_ends_at_the_published_initial_error() {
         };
         generate(PUMA, &Effort::default(), edit).unwrap()
     };
-    let guarantee = with(0.01).design.unwrap().guarantee;
+    let guarantee = with(0.01).design().unwrap().guarantee.clone();
     assert!(guarantee.holds, "{:?}", guarantee.reasons);
     let most = guarantee.initial_error_max[0];
     println!("largest initial error {most:.5}");
-    let mut inside = with(0.99 * most);
-    assert!(inside.design.as_ref().unwrap().guarantee.holds);
-    inside.loaded.spec.simulation.duration = Some(0.2);
-    inside.loaded.spec.simulation.substeps = Some(2);
+    let inside = with(0.99 * most);
+    assert!(inside.design().unwrap().guarantee.holds);
     let run = run(&inside);
     assert!((0..6).all(|i| largest(&run, i, 0) <= 0.1));
-    let outside = with(1.01 * most).design.unwrap().guarantee;
+    let outside = with(1.01 * most).design().unwrap().guarantee.clone();
     assert!(!outside.holds && outside.reasons[0].contains("the tube holds 0.1"), "{:?}", outside.reasons);
 }

@@ -1,8 +1,8 @@
 //! The report's section 4: which of its claims the runs bear out.
 
-use gramforge::progress::Silent;
-use gramforge::report::{Figures, figures};
-use gramforge::reproduce::{claims, run};
+use gramforge::internals::progress::Silent;
+use gramforge::internals::report::{Figures, figures};
+use gramforge::internals::reproduce::{claims, run};
 
 #[test]
 fn the_reports_claims_hold_where_they_can() {
@@ -39,8 +39,8 @@ fn the_reports_claims_hold_where_they_can() {
     assert_eq!(verdict("the same with the gains as printed"), [false]);
 
     let drawn = figures(&Figures {
-        joints: &cases.nominal.arm.joints,
-        motion: cases.nominal.motion.as_ref().unwrap(),
+        joints: &cases.nominal.arm().joints,
+        motion: cases.nominal.motion().unwrap(),
         exact: &cases.simplified.exact,
         simplified: &cases.simplified.law,
         robust: &cases.loaded[1].robust[1].law,

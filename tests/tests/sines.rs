@@ -1,13 +1,13 @@
 //! Approximate sines in the generated code: bounds that count them hold, and do not without that part.
 
 use gramforge::Generation;
-use gramforge::arm::Arm;
-use gramforge::body::{Form, recursive};
-use gramforge::bounds::{Bounds, recursion};
-use gramforge::dynamics::{coriolis, gravity, mass_matrix};
-use gramforge::graph::Graph;
+use gramforge::internals::arm::Arm;
+use gramforge::internals::bounds::{Bounds, recursion};
+use gramforge::internals::dynamics::{coriolis, gravity, mass_matrix};
+use gramforge::internals::graph::Graph;
+use gramforge::internals::torque::{Form, recursive};
+use gramforge::internals::trig::{Kind, Trig};
 use gramforge::load::{Loaded, parse, spec_hash};
-use gramforge::sines::{Kind, Sines};
 use gramforge_tests::random::Random;
 use gramforge_tests::{arm, motion, spec};
 use serde_json::{Value, json};
@@ -90,9 +90,9 @@ fn ratio(arm: &Arm, code: &Graph, bounds: &Bounds, q: &[f64]) -> f64 {
 }
 
 /// Sine and cosine off by ±`error`, for each joint as the bits of `pattern` say.
-fn off(error: f64, q: &[f64], pattern: usize) -> Sines {
+fn off(error: f64, q: &[f64], pattern: usize) -> Trig {
     let q = q.to_vec();
-    Sines::own(Kind::Polynomial, error, move |x| {
+    Trig::own(Kind::Polynomial, error, move |x| {
         let joint = q.iter().position(|&q| q == x).unwrap_or(0);
         let sign = |bit: usize| if pattern >> bit & 1 == 1 { error } else { -error };
         let (sin, cos) = gramforge_runtime::Real::sin_cos(x);
@@ -102,7 +102,7 @@ fn off(error: f64, q: &[f64], pattern: usize) -> Sines {
 
 /// A position of the generation's tube.
 fn position(generation: &Generation, random: &mut Random, half_width: f64) -> Vec<f64> {
-    let motion = generation.motion.as_ref().unwrap();
+    let motion = generation.motion().unwrap();
     let t = motion.duration() * (0.5 + 0.5 * random.signed());
     motion.at(t).q.iter().map(|q| q + half_width * random.signed()).collect()
 }
@@ -110,14 +110,14 @@ fn position(generation: &Generation, random: &mut Random, half_width: f64) -> Ve
 #[test]
 fn bounds_of_a_reduced_model_hold_for_a_coarse_table() {
     let made = with_trig("arm3_xi2", json!({ "table": { "error": 2e-3 } }));
-    assert_eq!(made.code.sines.kind, Kind::Table(16));
+    assert_eq!(made.code().sines.kind, Kind::Table(16));
     let mut random = Random::new(1);
     let worst = (0..3000).fold(0.0, |most: f64, _| {
-        most.max(ratio(&made.arm, &made.code, &made.bounds, &position(&made, &mut random, 0.2)))
+        most.max(ratio(made.arm(), made.code(), made.bounds(), &position(&made, &mut random, 0.2)))
     });
     println!("reduced, 16 pairs: largest error/bound {worst:.4}");
     assert!(worst <= 1.0 && worst > 0.5, "{worst}");
-    let simplified = made.certificates.iter().zip(&made.reduced.simplified);
+    let simplified = made.certificates().iter().zip(&made.reduced().simplified);
     for (certificate, simplified) in simplified {
         assert!(certificate.sines > 0.0 || certificate.bound == 0.0);
         assert!(*simplified || certificate.bound == certificate.sines.next_up() || certificate.bound == 0.0);
@@ -127,20 +127,20 @@ fn bounds_of_a_reduced_model_hold_for_a_coarse_table() {
 /// At the states where the residual is largest, with the worst errors that the sines may have.
 #[test]
 fn the_sines_part_of_the_bounds_is_needed() {
-    let mut made = with_trig("arm3_xi2", json!({ "table": { "error": 0.02 } }));
-    let (error, whole) = (made.code.sines.error, made.bounds.clone());
-    let deltas: Vec<f64> = made.certificates.iter().map(|c| c.bound - c.sines).collect();
-    let without = Bounds::new(&made.lagrangian, &deltas);
-    let witnesses: Vec<_> = made.certificates.iter().map(|c| c.witness.clone()).collect();
+    let made = with_trig("arm3_xi2", json!({ "table": { "error": 0.02 } }));
+    let mut code = made.code().clone();
+    let (error, whole) = (made.code().sines.error, made.bounds().clone());
+    let deltas: Vec<f64> = made.certificates().iter().map(|c| c.bound - c.sines).collect();
+    let without = Bounds::new(made.lagrangian(), &deltas);
+    let witnesses: Vec<_> = made.certificates().iter().map(|c| c.witness.clone()).collect();
     let (mut most, mut exceeded) = (0.0_f64, 0);
     for q in witnesses.iter().filter(|q| !q.is_empty()) {
         // Equal angles would share their errors.
         let q: Vec<f64> = q.iter().enumerate().map(|(j, q)| q + 1e-12 * j as f64).collect();
         for pattern in 0..64 {
-            made.code.sines = off(error, &q, pattern);
-            most = most.max(ratio(&made.arm, &made.code, &whole, &q));
-            let (exact, computed) =
-                (Entries::of(&made.arm, &q).flat(), Entries::computed(&made.code, &q).flat());
+            code.sines = off(error, &q, pattern);
+            most = most.max(ratio(made.arm(), &code, &whole, &q));
+            let (exact, computed) = (Entries::of(made.arm(), &q).flat(), Entries::computed(&code, &q).flat());
             let bounds = flat(&without.d, &without.h, &without.g);
             let beyond = |((x, y), bound): ((&f64, f64), f64)| bound > 0.0 && (x - y).abs() > bound;
             exceeded += exact.iter().zip(computed).zip(bounds).filter(|entry| beyond(*entry)).count();
@@ -155,20 +155,20 @@ fn the_sines_part_of_the_bounds_is_needed() {
 #[test]
 fn an_exact_expanded_body_has_the_bounds_of_its_sines() {
     let made = with_trig("arm3_exact", json!({ "table": { "error": 1e-3 } }));
-    assert_eq!(made.form, Form::Expanded);
+    assert_eq!(made.form(), Form::Expanded);
     let mut random = Random::new(2);
     let mut worst = 0.0_f64;
-    let (mut adversary, error) = (made.code.clone(), made.code.sines.error);
+    let (mut adversary, error) = (made.code().clone(), made.code().sines.error);
     for index in 0..500 {
         let q = position(&made, &mut random, 0.2);
-        worst = worst.max(ratio(&made.arm, &made.code, &made.bounds, &q));
+        worst = worst.max(ratio(made.arm(), made.code(), made.bounds(), &q));
         adversary.sines = off(error, &q, index % 64);
-        worst = worst.max(ratio(&made.arm, &adversary, &made.bounds, &q));
+        worst = worst.max(ratio(made.arm(), &adversary, made.bounds(), &q));
     }
     println!("exact, expanded: largest error/bound {worst:.4}");
     assert!(worst <= 1.0 && worst > 0.3, "{worst}");
     let zero = with_trig("arm3_exact", json!("polynomial"));
-    assert!(zero.bounds.d.iter().flatten().chain(&zero.bounds.g).all(|&bound| bound == 0.0));
+    assert!(zero.bounds().d.iter().flatten().chain(&zero.bounds().g).all(|&bound| bound == 0.0));
 }
 
 #[test]
@@ -183,8 +183,8 @@ fn an_exact_recursive_body_has_the_bounds_of_its_sines() {
             for _ in 0..300 {
                 let t = motion.duration() * (0.5 + 0.5 * random.signed());
                 let q: Vec<f64> = motion.at(t).q.iter().map(|q| q + random.signed()).collect();
-                let reach: Vec<f64> = q.iter().map(|q| q.abs()).collect();
-                let bounds = recursion(&arm, &reach, error);
+                let position_bound: Vec<f64> = q.iter().map(|q| q.abs()).collect();
+                let bounds = recursion(&arm, &position_bound, error);
                 code.sines = off(error, &q, (random.signed().to_bits() >> 8) as usize % (1 << (2 * n)));
                 worst = worst.max(ratio(&arm, &code, &bounds, &q));
             }
@@ -201,14 +201,14 @@ fn an_exact_model_in_recursive_form_is_given_those_bounds() {
         spec["emit"] = json!({ "trig": { "table": { "error": 1e-5 } } });
     });
     let made = Generation::new(table).unwrap();
-    assert_eq!(made.form, Form::Recursive);
+    assert_eq!(made.form(), Form::Recursive);
     let mut random = Random::new(4);
     for _ in 0..100 {
         let q = position(&made, &mut random, 0.02);
-        let worst = ratio(&made.arm, &made.code, &made.bounds, &q);
+        let worst = ratio(made.arm(), made.code(), made.bounds(), &q);
         assert!(worst <= 1.0, "{worst} at {q:?}");
     }
-    assert!(made.certificates.iter().any(|certificate| certificate.bound > 0.0));
+    assert!(made.certificates().iter().any(|certificate| certificate.bound > 0.0));
     let text = made.module().unwrap();
     assert!(text.contains("pub static SINES") && text.contains("the bounds are those of the sines' error"));
 }

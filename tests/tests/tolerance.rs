@@ -6,17 +6,17 @@
 use std::path::{Path, PathBuf};
 
 use gramforge::Generation;
-use gramforge::body::recursive;
-use gramforge::bounds::{Effort, Rates};
-use gramforge::dynamics::inverse_dynamics;
-use gramforge::graph::Graph;
-use gramforge::lagrangian::{Combination, evaluate, expand};
+use gramforge::internals::bounds::{Effort, Rates};
+use gramforge::internals::choose::why_exact;
+use gramforge::internals::domain::Domain;
+use gramforge::internals::dynamics::inverse_dynamics;
+use gramforge::internals::graph::Graph;
+use gramforge::internals::lagrangian::{Combination, evaluate, expand};
+use gramforge::internals::numerics::low_discrepancy::{LowDiscrepancy, in_box};
+use gramforge::internals::reduction::{Dictionary, products};
+use gramforge::internals::torque::recursive;
 use gramforge::load::{Loaded, load};
-use gramforge::measure::Domain;
-use gramforge::reduction::{Dictionary, products};
 use gramforge::spec::{DictionarySpec, MeasureSpec, ModelSpec};
-use gramforge::spread::{Spread, in_box};
-use gramforge::tolerance::why_exact;
 
 fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(name).with_extension("json")
@@ -37,7 +37,7 @@ fn workspace() -> Loaded {
 
 fn made(mut loaded: Loaded, model: ModelSpec) -> Generation {
     loaded.spec.model = model;
-    Generation::with_effort(loaded, &Effort { boxes: 500, ..Effort::default() }).unwrap()
+    Generation::with_effort(loaded, &Effort::default().boxes(500)).unwrap()
 }
 
 fn within(loaded: &Loaded, torque: f64) -> Generation {
@@ -63,26 +63,28 @@ struct State {
 
 impl Arena<'_> {
     fn new(generation: &Generation) -> Arena<'_> {
-        let rates = match (&generation.domain, &generation.motion) {
-            (Domain::Workspace(_), _) | (_, None) => Rates::limits(&generation.arm).unwrap(),
+        let rates = match (generation.domain(), &generation.motion()) {
+            (Domain::Workspace(_), _) | (_, None) => Rates::limits(generation.arm()).unwrap(),
             (_, Some(motion)) => Rates::of(motion),
         };
-        let Generation { arm, uncertainty, exact_code, .. } = generation;
+        let (arm, uncertainty, exact_code) =
+            (generation.arm(), generation.uncertainty(), generation.exact_code());
         let vertices = uncertainty.vertices().map(|u| recursive(&uncertainty.at(arm, &u)));
         let exact =
             if uncertainty.is_empty() { vec![exact_code.clone()] } else { vertices.collect::<Vec<_>>() };
         let left = |m: usize| {
-            (generation.reduced.residual(&generation.lagrangian, m), generation.certificates[m].bound)
+            (generation.reduced().residual(generation.lagrangian(), m), generation.certificates()[m].bound)
         };
-        let left = (0..generation.certificates.len()).filter(|&m| generation.reduced.simplified[m]).map(left);
+        let left =
+            (0..generation.certificates().len()).filter(|&m| generation.reduced().simplified[m]).map(left);
         Arena { generation, rates, exact, left: left.collect() }
     }
 
     fn position(&self, unit: &[f64]) -> Vec<f64> {
-        let n = self.generation.arm.dof();
-        match (&self.generation.domain, &self.generation.motion) {
+        let n = self.generation.arm().dof();
+        match (self.generation.domain(), &self.generation.motion()) {
             (Domain::Workspace(limits), _) => in_box(limits, &unit[..n]),
-            (Domain::Tube(errors), Some(motion)) => {
+            (Domain::Tube(_, errors), Some(motion)) => {
                 let centre = motion.at(motion.duration() * unit[n]).q;
                 centre.iter().zip(errors).zip(unit).map(|((q, e), u)| q + e * (2.0 * u - 1.0)).collect()
             }
@@ -93,10 +95,10 @@ impl Arena<'_> {
 
     /// |emitted − exact| by joint, as parts of what is certified; no coefficient is further off than its bound.
     fn parts(&self, state: &State) -> Vec<f64> {
-        let n = self.generation.arm.dof();
+        let n = self.generation.arm().dof();
         let q = self.position(&state.unit);
         if !self.left.is_empty() {
-            let psi = self.generation.lagrangian.evaluate_functions(&q);
+            let psi = self.generation.lagrangian().evaluate_functions(&q);
             for (terms, bound) in &self.left {
                 assert!(evaluate(terms, &psi).abs() <= *bound);
             }
@@ -107,9 +109,9 @@ impl Arena<'_> {
         };
         let (v, w) = (corner(&self.rates.speed, 0), corner(&self.rates.reference_speed, n));
         let a = corner(&self.rates.reference_acceleration, 2 * n);
-        let model = self.generation.code.interpret(&q, &v, &w, &a);
+        let model = self.generation.code().interpret(&q, &v, &w, &a);
         let exact: Vec<Vec<f64>> = self.exact.iter().map(|code| code.interpret(&q, &v, &w, &a)).collect();
-        let torque = self.generation.torque.as_ref().unwrap();
+        let torque = self.generation.torque().unwrap();
         let part = |i: usize| {
             let error = exact.iter().map(|exact| (model[i] - exact[i]).abs()).fold(0.0, f64::max);
             let rounding = 1e-11 * torque.peak[i];
@@ -121,7 +123,7 @@ impl Arena<'_> {
 
     /// Uphill for joint `i`, by steps along single variables and turns of single rates.
     fn climb(&self, i: usize, mut state: State) -> f64 {
-        let n = self.generation.arm.dof();
+        let n = self.generation.arm().dof();
         let mut height = self.parts(&state)[i];
         let mut step = 0.1;
         while step > 1e-3 {
@@ -150,8 +152,8 @@ impl Arena<'_> {
 /// climbs from the worst of them for each joint. Largest error found as a part of what is certified.
 fn search(generation: &Generation, states: usize) -> f64 {
     let arena = Arena::new(generation);
-    let n = generation.arm.dof();
-    let spread = Spread::new(n + 1);
+    let n = generation.arm().dof();
+    let spread = LowDiscrepancy::new(n + 1);
     let state = |index: usize| {
         let side = |u: &f64| (0.5 + 1.4 * (u - 0.5)).clamp(0.0, 1.0);
         let signs = (index + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 7;
@@ -175,14 +177,14 @@ fn sweep(loaded: &Loaded, tolerances: &[f64], states: usize) -> Vec<Generation> 
     let mut all = Vec::new();
     for &tolerance in tolerances {
         let generation = within(loaded, tolerance);
-        let (own, exact) = (generation.code.operations(), generation.exact_code.operations());
-        assert!(own.price() <= exact.price(), "{tolerance}: {own:?}, exact {exact:?}");
-        assert!(own.price() <= before, "{tolerance} costs {} after {before}", own.price());
-        before = own.price();
-        let certified = generation.torque.as_ref().unwrap().fraction();
+        let (own, exact) = (generation.code().operations(), generation.exact_code().operations());
+        assert!(own.cost() <= exact.cost(), "{tolerance}: {own:?}, exact {exact:?}");
+        assert!(own.cost() <= before, "{tolerance} costs {} after {before}", own.cost());
+        before = own.cost();
+        let certified = generation.torque().unwrap().fraction();
         assert!(certified <= tolerance, "{tolerance}: certified {certified}");
         let found = search(&generation, states);
-        let (count, pairs, form) = (own.arithmetic(), own.trig_pairs, generation.form.name());
+        let (count, pairs, form) = (own.arithmetic(), own.trig_pairs, generation.form().name());
         println!("  {tolerance:8}  {count:8}  {pairs:5}  {certified:9.5}  {found:15.3}  {form}");
         all.push(generation);
     }
@@ -193,10 +195,10 @@ fn sweep(loaded: &Loaded, tolerances: &[f64], states: usize) -> Vec<Generation> 
 fn looser_tolerances_cost_less_and_every_certificate_holds() {
     let loaded = workspace();
     let sweep = sweep(&loaded, &[0.001, 0.005, 0.01, 0.03, 0.1, 0.2], 3_000);
-    let price = |generation: &Generation| generation.code.operations().price();
+    let cost = |generation: &Generation| generation.code().operations().cost();
     let (first, last) = (sweep.first().unwrap(), sweep.last().unwrap());
-    assert!(price(last) < price(&sweep[2]) && price(&sweep[2]) < price(first));
-    assert_eq!(last.form.name(), "sparse");
+    assert!(cost(last) < cost(&sweep[2]) && cost(&sweep[2]) < cost(first));
+    assert_eq!(last.form().name(), "sparse");
     // The certificate is not idle: a search comes near it.
     assert!(search(last, 5_000) > 0.8);
 }
@@ -204,7 +206,7 @@ fn looser_tolerances_cost_less_and_every_certificate_holds() {
 #[test]
 fn a_tube_is_reduced_too() {
     let generation = within(&specified("puma3"), 0.02);
-    assert!(generation.torque.as_ref().unwrap().fraction() <= 0.02);
+    assert!(generation.torque().unwrap().fraction() <= 0.02);
     search(&generation, 3_000);
 }
 
@@ -234,8 +236,8 @@ fn a_workspace_of_many_turns_is_reduced_as_one_turn_is() {
         within(&written(&spec), 0.05)
     };
     let (one, hundred) = (reduced(1.0), reduced(100.0));
-    let price = |generation: &Generation| generation.code.operations().price();
-    assert!(price(&hundred) * 10 <= price(&one) * 11, "{} after {}", price(&hundred), price(&one));
+    let cost = |generation: &Generation| generation.code().operations().cost();
+    assert!(cost(&hundred) * 10 <= cost(&one) * 11, "{} after {}", cost(&hundred), cost(&one));
     assert!(search(&hundred, 3_000) > 0.5);
 }
 
@@ -252,9 +254,9 @@ fn uncertain(name: &str, links: serde_json::Value) -> serde_json::Value {
 /// Certified over a family of arms, attacked at all its vertices.
 fn attacked(spec: &serde_json::Value, torque: f64) -> Generation {
     let generation = within(&written(spec), torque);
-    let wider = generation.torque.as_ref().unwrap().fraction() > torque;
-    let warned = generation.warnings.iter().any(|text| text.contains("as specified"));
-    assert!(wider && warned, "{:?} {:?}", generation.torque, generation.warnings);
+    let wider = generation.torque().unwrap().fraction() > torque;
+    let warned = generation.warnings().iter().any(|text| text.contains("as specified"));
+    assert!(wider && warned, "{:?} {:?}", generation.torque(), generation.warnings());
     assert!(search(&generation, 3_000) > 0.5);
     generation
 }
@@ -266,18 +268,18 @@ fn the_certificate_of_an_uncertain_arm_holds_for_all_of_them() {
     let mut spec = uncertain("puma3", links);
     for measure in [serde_json::json!("workspace"), spec["measure"].clone()] {
         spec["measure"] = measure;
-        assert_eq!(attacked(&spec, 0.05).uncertainty.parameters.len(), 2);
+        assert_eq!(attacked(&spec, 0.05).uncertainty().parameters.len(), 2);
     }
     let simpler = attacked(&uncertain("stanford", serde_json::json!([])), 0.002);
-    assert!(simpler.reduced.dropped.is_some());
+    assert!(simpler.reduced().simplified_arm().is_some());
 }
 
 #[test]
 fn without_a_model_the_tolerance_is_one_per_cent() {
     let auto = made(workspace(), ModelSpec::default());
     let stated = within(&workspace(), 0.01);
-    assert_eq!(auto.reduced, stated.reduced);
-    assert_eq!(auto.code, stated.code);
+    assert_eq!(auto.reduced(), stated.reduced());
+    assert_eq!(auto.code(), stated.code());
 }
 
 #[test]
@@ -285,7 +287,7 @@ fn the_choice_does_not_depend_on_the_number_of_threads() {
     let several = within(&workspace(), 0.02);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let one = pool.install(|| within(&workspace(), 0.02));
-    assert_eq!(several.reduced, one.reduced);
+    assert_eq!(several.reduced(), one.reduced());
     assert_eq!(several.module().unwrap(), one.module().unwrap());
 }
 
@@ -301,7 +303,7 @@ fn an_exact_model_says_why_it_is_one() {
     let strict = within(&workspace(), 1e-5);
     assert!(strict.verdict().starts_with("no sparse model is sought for tolerances below 0.31 %"));
     assert!(strict.module().unwrap().contains(&strict.verdict()));
-    let (arm, lagrangian) = (&strict.arm, &strict.lagrangian);
+    let (arm, lagrangian) = (strict.arm(), strict.lagrangian());
     assert!(why_exact(arm, lagrangian, Some(&[1.0; 3]), 0.1).contains("is cheaper than the exact one"));
     assert!(why_exact(arm, lagrangian, Some(&[1.0, 0.0, 1.0]), 0.1).contains("no torque of joint2"));
     assert!(made(workspace(), ModelSpec::Exact).verdict().starts_with("this is the exact model"));
@@ -312,7 +314,7 @@ fn an_exact_model_says_why_it_is_one() {
 #[test]
 fn the_peak_torque_over_a_workspace_is_reached() {
     let generation = made(workspace(), ModelSpec::Exact);
-    let (arm, peak) = (&generation.arm, &generation.torque.as_ref().unwrap().peak);
+    let (arm, peak) = (generation.arm(), &generation.torque().unwrap().peak);
     let rates = Rates::limits(arm).unwrap();
     let limits = arm.joint_box();
     let n = arm.dof();
@@ -323,7 +325,7 @@ fn the_peak_torque_over_a_workspace_is_reached() {
         let (v, a) = (corner(&rates.speed, 0), corner(&rates.reference_acceleration, n));
         inverse_dynamics(arm, &in_box(&limits, unit), &v, &a)
     };
-    let spread = Spread::new(n);
+    let spread = LowDiscrepancy::new(n);
     for i in 0..n {
         let state = |index: usize| (spread.point(index / 64), index % 64);
         let all = (0..64 * 300).map(state);
@@ -351,7 +353,7 @@ fn the_peak_torque_over_a_workspace_is_reached() {
 /// The report counts p = 17 where 13 functions are independent.
 #[test]
 fn the_report_s_dictionary_of_a_puma_has_17_functions() {
-    let lagrangian = expand(&made(specified("puma3"), ModelSpec::Exact).arm);
+    let lagrangian = expand(made(specified("puma3"), ModelSpec::Exact).arm());
     assert_eq!(lagrangian.functions.len(), 13);
     assert_eq!(Dictionary::Product.functions(&lagrangian).len(), 17);
     assert_eq!(products(&lagrangian, 2).len(), 10);
@@ -376,7 +378,7 @@ fn models_over_products_keep_their_bounds_and_reach_the_exact_one() {
             let model = ModelSpec::Separate { functions };
             let generation = made(loaded.clone(), model);
             search(&generation, 1_000);
-            let error = generation.torque.as_ref().unwrap().fraction();
+            let error = generation.torque().unwrap().fraction();
             assert!(error < before, "{dictionary:?}, ξ = {functions}: {error} after {before}");
             before = error;
             let shared = made(loaded.clone(), ModelSpec::Shared { functions });
@@ -384,7 +386,7 @@ fn models_over_products_keep_their_bounds_and_reach_the_exact_one() {
         }
         // Dependent candidates are passed over: 13 functions span the model.
         let whole = made(loaded.clone(), ModelSpec::Shared { functions: 13 });
-        assert!(whole.torque.as_ref().unwrap().fraction() < 1e-9, "exact but for rounding");
+        assert!(whole.torque().unwrap().fraction() < 1e-9, "exact but for rounding");
         assert!(search(&whole, 500) <= 1.0);
     }
 }

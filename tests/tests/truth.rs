@@ -1,9 +1,9 @@
 //! Expansion and recursion against reference values, the skew symmetry of Ḋ − 2C, and the energy of a free swing.
 
-use gramforge::arm::Arm;
-use gramforge::dynamics;
-use gramforge::lagrangian::{Entry, Lagrangian, expand};
-use gramforge::simulate::ArmModel;
+use gramforge::internals::arm::Arm;
+use gramforge::internals::dynamics;
+use gramforge::internals::lagrangian::{Entry, Lagrangian, expand};
+use gramforge::internals::simulate::ArmModel;
 use gramforge_runtime::simulate::{JointState, RigidPlant, Simulation};
 use gramforge_tests::truth::{State, Truth};
 use gramforge_tests::{arm, array, difference, largest};

@@ -6,9 +6,9 @@ mod arms;
 use std::path::{Path, PathBuf};
 
 use arms::{ACCELERATION, Case, RANGE, SPEED, case, welded};
+use gramforge::Effort;
 use gramforge::Generation;
-use gramforge::body::Form;
-use gramforge::bounds::Effort;
+use gramforge::internals::torque::Form;
 use gramforge::load::load;
 use gramforge_tests::oracle::passivity_torque;
 use gramforge_tests::random::Random;
@@ -44,7 +44,7 @@ fn made(folder: &Path, case: Case, model: &str, edit: impl Fn(&mut Value)) -> Ma
     }
     let path = folder.join(format!("{name}.json"));
     std::fs::write(&path, spec.to_string()).unwrap();
-    let effort = Effort { boxes: 2000, starts: 2, ..Effort::default() };
+    let effort = Effort::default().boxes(2000).starts(2);
     let generation = load(&path)
         .and_then(|loaded| Generation::with_effort(loaded, &effort))
         .unwrap_or_else(|error| panic!("{error}"));
@@ -119,10 +119,10 @@ fn exact_modules_keep_every_twist() {
     let expanded: Vec<Made> = (0..200_u64)
         .into_par_iter()
         .filter(|index| {
-            joints(*index) <= 2 && all[*index as usize].generation.lagrangian.functions.len() < 400
+            joints(*index) <= 2 && all[*index as usize].generation.lagrangian().functions.len() < 400
         })
         .map(|index| {
-            let count = all[index as usize].generation.lagrangian.functions.len();
+            let count = all[index as usize].generation.lagrangian().functions.len();
             let case = case(index, joints(index), exponent(index));
             made(&folder, case, "expanded", |spec| {
                 spec["model"] = json!({ "shared": { "functions": count } })
@@ -143,12 +143,12 @@ fn exact_modules_keep_every_twist() {
         }
         println!("{:>9} {count:>7} {:>12.1e} {:>12.1e}", format!("1e{exponent}"), worst[0], worst[1]);
     }
-    let forms = |form| all.iter().filter(|made| made.generation.form == form).count();
+    let forms = |form| all.iter().filter(|made| made.generation.form() == form).count();
     println!("{} recursive, {} expanded", forms(Form::Recursive), forms(Form::Expanded));
     assert!(forms(Form::Recursive) >= 100 && forms(Form::Expanded) >= 40);
     for (made, (off, most)) in all.iter().zip(&found) {
         let allowed = if made.case.links.len() <= 4 { 1e-13 } else { 1e-12 };
-        let claimed = &made.generation.torque.as_ref().expect("limits of every joint").error;
+        let claimed = &made.generation.torque().expect("limits of every joint").error;
         for ((off, most), claimed) in off.iter().zip(most).zip(claimed) {
             let (name, source) = (&made.name, made.case.source);
             assert!(*off <= allowed * most, "{name} ({source}): {off:e} of {most:e}");
@@ -172,7 +172,7 @@ fn reduced_and_rounded_modules_keep_what_they_say() {
         .collect();
     // Each too small to be seen, all of them together not.
     all.push(made(&folder, welded(9.9e-12), "welded", |spec| spec["arm"]["round_angles"] = Value::Null));
-    assert!(all.last().is_some_and(|made| made.generation.arm != made.generation.given));
+    assert!(all.last().is_some_and(|made| made.generation.arm() != made.generation.given()));
     let tolerances = (0..30_u64).into_par_iter().map(|index| {
         let torque = [0.001, 0.01, 0.05, 0.2][index as usize / 4 % 4];
         made(&folder, few(index), "tolerance", |spec| {
@@ -187,8 +187,8 @@ fn reduced_and_rounded_modules_keep_what_they_say() {
     let found = errors(&folder, &all);
     let mut attained = [0.0_f64; 2];
     for (made, (off, _)) in all.iter().zip(&found) {
-        let claimed = &made.generation.torque.as_ref().expect("limits of every joint").error;
-        let rounded = made.generation.arm != made.generation.given;
+        let claimed = &made.generation.torque().expect("limits of every joint").error;
+        let rounded = made.generation.arm() != made.generation.given();
         for (off, claimed) in off.iter().zip(claimed) {
             assert!(off <= claimed, "{}: {off:e}, and it says {claimed:e}", made.name);
             let kind = usize::from(rounded);
@@ -196,10 +196,10 @@ fn reduced_and_rounded_modules_keep_what_they_say() {
         }
     }
     let count = |is: &dyn Fn(&Generation) -> bool| all.iter().filter(|made| is(&made.generation)).count();
-    let rounded = count(&|g| g.arm != g.given);
-    let sparse = count(&|g| g.form == Form::Sparse);
-    let simpler = count(&|g| g.reduced.dropped.is_some());
-    let expanded = count(&|g| g.form == Form::Expanded && !g.reduced.is_exact());
+    let rounded = count(&|g| g.arm() != g.given());
+    let sparse = count(&|g| g.form() == Form::Sparse);
+    let simpler = count(&|g| g.reduced().simplified_arm().is_some());
+    let expanded = count(&|g| g.form() == Form::Expanded && !g.reduced().is_exact());
     println!(
         "{rounded} rounded, {sparse} sparse, {simpler} simpler arms, {expanded} expanded; largest part of what is said: reduced {:.3}, rounded {:.3}",
         attained[0], attained[1]
@@ -219,8 +219,8 @@ fn advice_on_angles_tells_what_it_saves() {
             made(&folder, few(), name, |spec| spec["arm"]["round_angles"] = json!(angle)).generation
         };
         let before = made("before", 0.0);
-        let now = before.exact_code.operations().arithmetic();
-        let Some(advice) = before.warnings.iter().find(|text| text.contains("arm.round_angles")) else {
+        let now = before.exact_code().operations().arithmetic();
+        let Some(advice) = before.warnings().iter().find(|text| text.contains("arm.round_angles")) else {
             continue;
         };
         let after = |mark: &str| {
@@ -229,7 +229,7 @@ fn advice_on_angles_tells_what_it_saves() {
         };
         let level: f64 = after("write ").parse().expect("an angle");
         let saved: usize = after("which saves ").parse().expect("a number of operations");
-        assert_eq!(made("after", level).exact_code.operations().arithmetic(), now - saved, "{advice}");
+        assert_eq!(made("after", level).exact_code().operations().arithmetic(), now - saved, "{advice}");
         told += 1;
     }
     assert!(told >= 3, "{told}");

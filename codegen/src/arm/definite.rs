@@ -3,8 +3,8 @@
 use nalgebra::DMatrix;
 
 use super::{Arm, Parameter, Uncertainty};
-use crate::error::Faults;
-use crate::spread::{Spread, corner, in_box};
+use crate::error::Diagnostics;
+use crate::numerics::low_discrepancy::{LowDiscrepancy, corner, in_box};
 
 /// Samples inside the box, beside its corners.
 const SAMPLES: usize = 512;
@@ -31,7 +31,7 @@ pub struct Indefinite {
 
 impl Indefinite {
     /// Adds this as a fault of the field `arm`.
-    pub fn report(&self, arm: &Arm, faults: &mut Faults) {
+    pub fn report(&self, arm: &Arm, faults: &mut Diagnostics) {
         let name = arm.joints.get(self.joint).map_or("", |joint| joint.name.as_str());
         faults.push(
             "arm",
@@ -45,7 +45,7 @@ impl Indefinite {
     }
 
     /// Adds this as a fault of the field `control.uncertainty`, for the arm with its parameters at `u`.
-    pub fn report_member(&self, uncertainty: &Uncertainty, u: &[f64], faults: &mut Faults) {
+    pub fn report_member(&self, uncertainty: &Uncertainty, u: &[f64], faults: &mut Diagnostics) {
         let at = |(p, u): (&Parameter, &f64)| format!("{} = {:.6}", p.name, p.nominal + u);
         let values: Vec<String> = uncertainty.parameters.iter().zip(u).map(at).collect();
         faults.push(
@@ -68,7 +68,7 @@ impl Indefinite {
 pub fn indefinite(arm: &Arm, mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>) -> Option<Indefinite> {
     let limits = arm.joint_box();
     let n = limits.len();
-    let spread = Spread::new(n);
+    let spread = LowDiscrepancy::new(n);
     let units =
         (0..SAMPLES).map(|index| spread.point(index)).chain((0..1 << n).map(|index| corner(index, n)));
     let positions: Vec<Vec<f64>> = units.map(|unit| in_box(&limits, &unit)).collect();
@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn not_finite_matrices_end_in_a_fault() {
         let found = indefinite(&arm(), |_| vec![vec![f64::NAN, 0.0], vec![0.0, 1.0]]).expect("NaN");
-        let mut faults = Faults::of(std::path::Path::new("a.json"));
+        let mut faults = Diagnostics::of(std::path::Path::new("a.json"));
         found.report(&arm(), &mut faults);
         assert!(faults.into_error().to_string().starts_with("a.json: arm: has the inertia matrix"));
     }

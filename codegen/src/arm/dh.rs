@@ -6,7 +6,7 @@ use super::body::matrix;
 use super::drive::{drive, of_link};
 use super::place::Place;
 use super::{Arm, Body, GRAVITY, Joint, JointKind, MOST_JOINTS, Transform, validate};
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::spec::{Convention, DhSpec, LinkSpec};
 
 /// The arm of `table`, which stands in the specification `file`, its rotations rounded by up to `angle` rad; `None` where a link's inertial data are incomplete.
@@ -17,13 +17,13 @@ pub(super) fn build(
     table: &DhSpec,
     angle: f64,
     file: &Path,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
     warnings: &mut Vec<String>,
 ) -> Option<Arm> {
     let count = table.links.len();
     if count == 0 || count > MOST_JOINTS {
-        let mend = format!("write 1 to {MOST_JOINTS} links");
-        faults.push("arm.dh.links", format!("has {count} links"), mend);
+        let help = format!("write 1 to {MOST_JOINTS} links");
+        faults.push("arm.dh.links", format!("has {count} links"), help);
         return None;
     }
     let mut joints = Vec::with_capacity(count);
@@ -71,7 +71,7 @@ fn around(convention: Convention, link: &LinkSpec, round: f64) -> (Transform, Tr
 }
 
 /// The link's body in the link frame, and the field that its inertia comes from.
-fn body(link: &LinkSpec, place: &Place, faults: &mut Faults) -> Option<(Body, &'static str)> {
+fn body(link: &LinkSpec, place: &Place, faults: &mut Diagnostics) -> Option<(Body, &'static str)> {
     match (&link.first_moment, &link.pseudo_inertia, &link.com, &link.inertia) {
         (Some(first_moment), Some(sigma), None, None) => {
             let body = Body { mass: link.mass, first_moment: *first_moment, pseudo_inertia: matrix(sigma) };
@@ -93,12 +93,12 @@ fn body(link: &LinkSpec, place: &Place, faults: &mut Faults) -> Option<(Body, &'
     }
 }
 
-fn explain(given: &[(&str, bool); 4], place: &Place, faults: &mut Faults) {
+fn explain(given: &[(&str, bool); 4], place: &Place, faults: &mut Diagnostics) {
     let names: Vec<String> =
         given.iter().filter(|(_, is)| *is).map(|(name, _)| format!("`{name}`")).collect();
     let [first, sigma, com, inertia] = given.map(|(_, is)| is);
     let whole = (first && sigma) || (com && inertia);
-    let (problem, mend) = match (names.as_slice(), whole) {
+    let (problem, help) = match (names.as_slice(), whole) {
         ([], _) => (
             "has no inertial data beside its mass".to_string(),
             "add `com` and `inertia`, or `first_moment` and `pseudo_inertia`".to_string(),
@@ -117,5 +117,5 @@ fn explain(given: &[(&str, bool); 4], place: &Place, faults: &mut Faults) {
             (format!("has {name} without `{other}`"), format!("add `{other}`"))
         }
     };
-    place.fault(faults, problem, mend);
+    place.fault(faults, problem, help);
 }

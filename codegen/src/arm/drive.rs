@@ -2,7 +2,7 @@
 
 use super::Limits;
 use super::place::Place;
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::spec::{CoulombSpec, DriveSpec, JointKind, LimitsSpec, LinkSpec};
 
 /// Joint-side drive data; `None` where the specification is silent.
@@ -30,7 +30,7 @@ pub(super) fn of_link(link: &LinkSpec) -> DriveSpec {
 }
 
 /// Brings drive data to the joint side: inertia and viscous friction times gear², Coulomb friction times |gear|.
-pub(super) fn drive(spec: &DriveSpec, kind: JointKind, place: &Place, faults: &mut Faults) -> Drive {
+pub(super) fn drive(spec: &DriveSpec, kind: JointKind, place: &Place, faults: &mut Diagnostics) -> Drive {
     let mut out = Drive::default();
     if let Some(limits_spec) = &spec.limits {
         out.limits = limits(limits_spec, kind, &place.at("limits"), faults);
@@ -80,7 +80,7 @@ pub(super) fn drive(spec: &DriveSpec, kind: JointKind, place: &Place, faults: &m
 }
 
 /// Friction forwards (≥ 0) and backwards (≤ 0).
-fn coulomb(spec: CoulombSpec, place: &Place, faults: &mut Faults) -> Option<[f64; 2]> {
+fn coulomb(spec: CoulombSpec, place: &Place, faults: &mut Diagnostics) -> Option<[f64; 2]> {
     match spec {
         CoulombSpec::Symmetric(v) => place.not_negative(v, "N·m", faults).map(|v| [v, 0.0 - v]),
         CoulombSpec::Directed(pair @ [forwards, backwards]) => {
@@ -98,7 +98,7 @@ fn coulomb(spec: CoulombSpec, place: &Place, faults: &mut Faults) -> Option<[f64
 }
 
 /// Limits with their order and signs checked.
-pub(super) fn limits(spec: &LimitsSpec, kind: JointKind, place: &Place, faults: &mut Faults) -> Limits {
+pub(super) fn limits(spec: &LimitsSpec, kind: JointKind, place: &Place, faults: &mut Diagnostics) -> Limits {
     let (length, force) = match kind {
         JointKind::Revolute => ("rad", "N·m"),
         JointKind::Prismatic => ("m", "N"),
@@ -106,8 +106,8 @@ pub(super) fn limits(spec: &LimitsSpec, kind: JointKind, place: &Place, faults: 
     let position = spec.position.filter(|pair @ [low, high]| {
         let ordered = low < high && pair.iter().all(|v| v.is_finite());
         if !ordered {
-            let mend = format!("write [lowest, highest] with the first below the second, in {length}");
-            place.at("position").fault(faults, format!("is {pair:?}"), mend);
+            let help = format!("write [lowest, highest] with the first below the second, in {length}");
+            place.at("position").fault(faults, format!("is {pair:?}"), help);
         }
         ordered
     });

@@ -2,7 +2,7 @@
 
 use super::place::Place;
 use super::{Body, Parameter, Transform};
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::spec::{LinkUncertaintySpec, PayloadUncertaintySpec, SymmetricIntervalsSpec};
 
 /// Rounding that passes where an interval must hold the arm's own value, relative to the values and their sources.
@@ -38,7 +38,7 @@ impl Given {
         nominal: &Body,
         frame: &Transform,
         place: &Place,
-        faults: &mut Faults,
+        faults: &mut Diagnostics,
     ) -> Vec<Parameter> {
         let at = self.at.unwrap_or_default();
         let [moments, inertias] = sizes(nominal, frame);
@@ -97,11 +97,11 @@ impl Given {
 /// Sizes of the numbers from which first moments and pseudo-inertias of a body in its frame are computed.
 fn sizes(body: &Body, frame: &Transform) -> [f64; 2] {
     let moved = body.moved(frame);
-    let reach = frame.translation.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let position_bound = frame.translation.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     let most = |m: f64, x: &f64| m.max(x.abs());
-    let moments = body.first_moment.iter().chain(&moved.first_moment).fold(body.mass * reach, most);
+    let moments = body.first_moment.iter().chain(&moved.first_moment).fold(body.mass * position_bound, most);
     let inertias = body.pseudo_inertia.iter().chain(&moved.pseudo_inertia).flatten();
-    [moments, inertias.fold(moments * reach, most)]
+    [moments, inertias.fold(moments * position_bound, most)]
 }
 
 /// The interval counted from `value`, which was computed from numbers of `size`; a fault where it does not hold it.
@@ -111,7 +111,7 @@ pub(super) fn about(
     size: f64,
     not_negative: bool,
     place: &Place,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) -> Option<[f64; 2]> {
     let [low, high] = range;
     let size = low.abs().max(high.abs()).max(size);

@@ -58,7 +58,7 @@ impl Linkage {
     }
 
     /// Bounds |J| x + |o| on the magnitudes of the chain's positions, where those of the coordinates stay below `x`.
-    pub fn reach(&self, x: &[f64]) -> Vec<f64> {
+    pub fn position_bound(&self, x: &[f64]) -> Vec<f64> {
         let at = |c: &Coupling| x.get(c.coordinate).map_or(0.0, |x| c.multiplier.abs() * x + c.offset.abs());
         self.couplings.iter().map(at).collect()
     }
@@ -80,7 +80,7 @@ pub(super) struct Unsupported {
     /// What is wrong.
     pub problem: String,
     /// What to do about it.
-    pub mend: String,
+    pub help: String,
 }
 
 /// The arm of a chain, whose tip stands at `tip` in the last joint's moved frame.
@@ -94,14 +94,14 @@ pub(super) fn arm(links: Vec<Link>, gravity: [f64; 3], tip: Transform) -> Result
     for (i, link) in links.iter().enumerate() {
         let (master, multiplier, offset) = link.follows.unwrap_or((i, 1.0, 0.0));
         let Some(coordinate) = masters.iter().position(|&m| m == master) else {
-            let (problem, mend) = ("follows a joint that follows another", "let it follow that one");
-            return Err(Unsupported { joint: i, problem: problem.into(), mend: mend.into() });
+            let (problem, help) = ("follows a joint that follows another", "let it follow that one");
+            return Err(Unsupported { joint: i, problem: problem.into(), help: help.into() });
         };
         if (multiplier * f64::from(FINEST)).fract() != 0.0 {
             return Err(Unsupported {
                 joint: i,
                 problem: format!("has the multiplier {multiplier}"),
-                mend: "write a whole number of quarters, such as -1, 0.5 or 2: the model is a sum of sines of such \
+                help: "write a whole number of quarters, such as -1, 0.5 or 2: the model is a sum of sines of such \
                        multiples; or hold the joint by `arm.lock`"
                     .into(),
             });
@@ -134,7 +134,7 @@ pub(super) fn arm(links: Vec<Link>, gravity: [f64; 3], tip: Transform) -> Result
                     "lets the joints that follow {} turn {turns} times as far as its part",
                     joint.name
                 ),
-                mend: "write smaller multipliers, or hold the joint by `arm.lock`".into(),
+                help: "write smaller multipliers, or hold the joint by `arm.lock`".into(),
             });
         }
     }

@@ -26,7 +26,7 @@ pub(crate) use round::{NOISE, distance};
 pub use transform::Transform;
 pub use uncertainty::{MOST_PARAMETERS, Parameter, Uncertainty};
 
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::load::Loaded;
 use crate::spec::ArmSpec;
 use place::Place;
@@ -125,7 +125,7 @@ impl Arm {
     /// Builds the arm of a specification from its DH table or its URDF file.
     ///
     /// Everything that is wrong goes to `faults`; `None` where something is.
-    pub fn from_spec(loaded: &Loaded, faults: &mut Faults) -> Option<Built> {
+    pub fn from_spec(loaded: &Loaded, faults: &mut Diagnostics) -> Option<Built> {
         let mut warnings = Vec::new();
         let angle = loaded.spec.arm.round_angles.unwrap_or(ROUND_ANGLES);
         if !(0.0..=MOST_ROUNDED).contains(&angle) {
@@ -142,13 +142,13 @@ impl Arm {
     /// The arm and the family of a specification that [`Arm::from_spec`] has accepted, with rotations up to `angle` rad off a
     /// right angle taken to be that right angle.
     pub fn rounded_to(loaded: &Loaded, angle: f64) -> Option<(Self, Uncertainty)> {
-        Self::described(loaded, angle, &mut Faults::of(&loaded.path), &mut Vec::new())
+        Self::described(loaded, angle, &mut Diagnostics::of(&loaded.path), &mut Vec::new())
     }
 
     fn described(
         loaded: &Loaded,
         angle: f64,
-        faults: &mut Faults,
+        faults: &mut Diagnostics,
         warnings: &mut Vec<String>,
     ) -> Option<(Self, Uncertainty)> {
         let before = faults.count();
@@ -221,7 +221,7 @@ impl Arm {
 /// Acceleration of gravity where the specification is silent, m/s².
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 
-fn refuse_urdf_fields(spec: &ArmSpec, faults: &mut Faults) {
+fn refuse_urdf_fields(spec: &ArmSpec, faults: &mut Diagnostics) {
     let given =
         [("tip", spec.tip.is_some()), ("lock", !spec.lock.is_empty()), ("joints", !spec.joints.is_empty())];
     for (name, present) in given {

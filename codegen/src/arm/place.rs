@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::error::{Faults, located};
+use crate::error::{Diagnostics, located};
 
 /// A field of a file, such as `arm.dh.links[1]` of a specification or `joint[elbow]` of a URDF.
 #[derive(Clone, Debug)]
@@ -45,8 +45,8 @@ impl Place {
     }
 
     /// Adds a fault here.
-    pub fn fault(&self, faults: &mut Faults, problem: impl Into<String>, mend: impl Into<String>) {
-        faults.push_at(&self.file, self.line, &self.field, problem, mend);
+    pub fn fault(&self, faults: &mut Diagnostics, problem: impl Into<String>, help: impl Into<String>) {
+        faults.push_at(&self.file, self.line, &self.field, problem, help);
     }
 
     /// Adds a warning here.
@@ -55,7 +55,7 @@ impl Place {
     }
 
     /// `value`, after a fault where it is not finite.
-    pub fn finite(&self, value: f64, faults: &mut Faults) -> Option<f64> {
+    pub fn finite(&self, value: f64, faults: &mut Diagnostics) -> Option<f64> {
         if value.is_finite() {
             return Some(value);
         }
@@ -64,7 +64,7 @@ impl Place {
     }
 
     /// `value`, after a fault where it is negative or not finite.
-    pub fn not_negative(&self, value: f64, unit: &str, faults: &mut Faults) -> Option<f64> {
+    pub fn not_negative(&self, value: f64, unit: &str, faults: &mut Diagnostics) -> Option<f64> {
         let value = self.finite(value, faults)?;
         if value >= 0.0 {
             return Some(value);
@@ -74,7 +74,7 @@ impl Place {
     }
 
     /// `value`, after a fault where it is not positive or not finite.
-    pub fn positive(&self, value: f64, unit: &str, faults: &mut Faults) -> Option<f64> {
+    pub fn positive(&self, value: f64, unit: &str, faults: &mut Diagnostics) -> Option<f64> {
         let value = self.finite(value, faults)?;
         if value > 0.0 {
             return Some(value);

@@ -5,9 +5,9 @@ use std::path::Path;
 use super::intervals::{Given, about};
 use super::place::Place;
 use super::{Arm, Body};
-use crate::check::has;
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::spec::{ArmSpec, UncertaintySpec};
+use crate::text::has;
 
 /// Most uncertain numbers of inertia: their box has 2^10 vertices.
 pub const MOST_PARAMETERS: usize = 10;
@@ -45,15 +45,21 @@ pub struct Uncertainty {
 
 impl Uncertainty {
     /// The family that `spec` describes about `arm`; what is wrong goes to `faults`.
-    pub fn new(spec: &UncertaintySpec, arm: &Arm, own: &ArmSpec, file: &Path, faults: &mut Faults) -> Self {
+    pub fn new(
+        spec: &UncertaintySpec,
+        arm: &Arm,
+        own: &ArmSpec,
+        file: &Path,
+        faults: &mut Diagnostics,
+    ) -> Self {
         let place = Place::new(file, "control.uncertainty");
         let mut out = Self::default();
         if arm.linkage.is_some() && (spec.payload.is_some() || !spec.links.is_empty()) {
-            let mend = "leave out `payload` and `links`, or hold the joints that follow others by `arm.lock`";
+            let help = "leave out `payload` and `links`, or hold the joints that follow others by `arm.lock`";
             place.fault(
                 faults,
                 "has inertias of an arm whose joints follow others, which is not supported",
-                mend,
+                help,
             );
             return out;
         }
@@ -73,17 +79,17 @@ impl Uncertainty {
             let place = place.at(&name);
             let Some(number) = arm.joints.iter().position(|joint| joint.name == link.joint) else {
                 let names: Vec<&str> = arm.joints.iter().map(|joint| joint.name.as_str()).collect();
-                let mend = format!("name one of {}", names.join(", "));
+                let help = format!("name one of {}", names.join(", "));
                 place.at("joint").fault(
                     faults,
                     format!("is {:?}, which is no joint of the arm", link.joint),
-                    mend,
+                    help,
                 );
                 continue;
             };
             if spec.links[..index].iter().any(|other| other.joint == link.joint) {
-                let mend = "write its intervals in one place: the two would add up";
-                place.at("joint").fault(faults, format!("is {:?} once more", link.joint), mend);
+                let help = "write its intervals in one place: the two would add up";
+                place.at("joint").fault(faults, format!("is {:?} once more", link.joint), help);
                 continue;
             }
             let joint = &arm.joints[number];
@@ -169,10 +175,10 @@ impl Uncertainty {
 }
 
 /// max |B − B̂| by joint.
-fn viscous(spec: &[Option<[f64; 2]>], arm: &Arm, place: &Place, faults: &mut Faults) -> Vec<f64> {
+fn viscous(spec: &[Option<[f64; 2]>], arm: &Arm, place: &Place, faults: &mut Diagnostics) -> Vec<f64> {
     if !spec.is_empty() && spec.len() != arm.dof() {
-        let mend = format!("write {}, one for each joint, `null` where it is known", arm.dof());
-        place.fault(faults, has(spec.len()), mend);
+        let help = format!("write {}, one for each joint, `null` where it is known", arm.dof());
+        place.fault(faults, has(spec.len()), help);
         return Vec::new();
     }
     let mut widest = |(index, (range, joint)): (usize, (&Option<[f64; 2]>, &super::Joint))| {

@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use super::Body;
 use super::body::{Matrix, matrix};
 use super::place::Place;
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::spec::PayloadSpec;
 
 /// Relative size below which a negative moment passes for rounding of printed tables.
@@ -26,7 +26,7 @@ pub(super) fn body(
     body: &Body,
     inertia: &Place,
     place: &Place,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
     warnings: &mut Vec<String>,
 ) {
     if !body.is_finite() {
@@ -52,8 +52,8 @@ pub(super) fn body(
     let moments = principal_moments(&tensor);
     if moments[0] < -slack {
         let problem = format!("gives the principal moment {:.6e} kg·m² about the centre of mass", moments[0]);
-        let mend = "write an inertia without negative moments; check signs, units and the point it refers to";
-        inertia.fault(faults, problem, mend);
+        let help = "write an inertia without negative moments; check signs, units and the point it refers to";
+        inertia.fault(faults, problem, help);
     } else if moments[2] > moments[0] + moments[1] + slack {
         let moments = moments.map(|moment| if moment.abs() <= slack { 0.0 } else { moment });
         let [first, second, third] = moments.map(moment);
@@ -69,7 +69,7 @@ pub(super) fn body(
 pub(super) fn payload(
     spec: &PayloadSpec,
     place: &Place,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
     warnings: &mut Vec<String>,
 ) -> Body {
     let inertia = spec.inertia.as_ref().map_or([[0.0; 3]; 3], matrix);

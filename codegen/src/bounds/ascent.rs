@@ -3,7 +3,7 @@
 use super::polynomial::{Jet, Scratch};
 use super::region::{Cell, MAX_VARIABLES, Region};
 use super::residual::Residual;
-use crate::spread::Spread;
+use crate::numerics::low_discrepancy::LowDiscrepancy;
 
 /// Steps of one ascent at most.
 const STEPS: usize = 40;
@@ -30,7 +30,7 @@ pub fn search(residual: &Residual, region: &Region, starts: usize, scratch: &mut
     if variables == 0 {
         return climb(residual, region, &[], scratch);
     }
-    let spread = Spread::new(variables);
+    let spread = LowDiscrepancy::new(variables);
     let mut best = Summit { height: -1.0, x: Vec::new() };
     for start in 0..starts.max(1) {
         let unit = spread.point(start);

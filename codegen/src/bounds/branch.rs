@@ -9,8 +9,7 @@ use super::queue::Queue;
 use super::region::{Cell, Region};
 use super::residual::{Residual, narrow};
 use super::{Effort, LONG};
-use crate::measure::Domain;
-use crate::motion::Motion;
+use crate::domain::Domain;
 
 /// Residuals beyond which a joint maximum gets no larger budget.
 const BUDGETS: usize = 8;
@@ -49,14 +48,8 @@ struct Waiting {
 /// Bounds the largest |f| of all `residuals` over `domain` together. Where it stays below `floor`, half as much again
 /// is near enough. Whatever stays below a value found of any residual is left alone, and all draw on one budget, which
 /// grows with the first eight of them. Without residuals all is zero.
-pub fn maximum(
-    residuals: &[Residual],
-    domain: &Domain,
-    motion: Option<&Motion>,
-    effort: &Effort,
-    floor: f64,
-) -> Proof {
-    let subject = |residual| Subject::new(residual, domain, motion);
+pub fn maximum(residuals: &[Residual], domain: &Domain, effort: &Effort, floor: f64) -> Proof {
+    let subject = |residual| Subject::new(residual, domain);
     let mut front = Front {
         subjects: residuals.iter().map(subject).collect(),
         tolerance: effort.tolerance,
@@ -106,9 +99,9 @@ struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    fn new(residual: &'a Residual, domain: &Domain, motion: Option<&'a Motion>) -> Self {
+    fn new(residual: &'a Residual, domain: &'a Domain) -> Self {
         let terms = residual.polynomial.terms().count();
-        let region = Region::new(domain, motion, &residual.polynomial.joints);
+        let region = Region::new(domain, &residual.polynomial.joints);
         let expander = (terms > EXPANDED).then(|| Expander::new(residual));
         let cost = if terms > LONG { 2 * terms.div_ceil(LONG) } else { 1 };
         Self { residual, region, expander, cost }

@@ -36,11 +36,19 @@ pub struct Enclosure {
 
 impl Envelope {
     /// For a p with the given bounds on its derivatives, over cells whose positions are no further than `widest` from
-    /// their centres and than `reach` from 0.
-    pub fn new(tensors: Tensors, widest: &[f64], reach: &[f64], remainder: f64, slack: Vec<f64>) -> Self {
-        let steps: f64 = (0..reach.len()).map(|i| tensors.gradient[i] * (widest[i] + 1.0 + reach[i])).sum();
+    /// their centres and than `position_bound` from 0.
+    pub fn new(
+        tensors: Tensors,
+        widest: &[f64],
+        position_bound: &[f64],
+        remainder: f64,
+        slack: Vec<f64>,
+    ) -> Self {
+        let steps: f64 = (0..position_bound.len())
+            .map(|i| tensors.gradient[i] * (widest[i] + 1.0 + position_bound[i]))
+            .sum();
         let third = tensors.third(widest);
-        let cubic: f64 = (0..reach.len()).map(|i| third[i] * widest[i]).sum();
+        let cubic: f64 = (0..position_bound.len()).map(|i| third[i] * widest[i]).sum();
         let scale = tensors.value + steps + tensors.second(widest) + cubic;
         Self { tensors, rounding: ENCLOSURE * scale, remainder, slack }
     }

@@ -5,9 +5,8 @@ use rayon::prelude::*;
 use super::polynomial::Scratch;
 use super::region::Region;
 use super::residuals;
+use crate::domain::Domain;
 use crate::lagrangian::Lagrangian;
-use crate::measure::Domain;
-use crate::motion::Motion;
 use crate::reduction::Reduced;
 
 /// Instants of the motion.
@@ -15,15 +14,10 @@ const INSTANTS: u32 = 200;
 
 /// max over t of |r_m(q_d)| + Σ_j |∂r_m/∂q_j| ε_j, one for each coefficient; `None` over a workspace, which has no
 /// motion to go along.
-pub fn estimate(
-    lagrangian: &Lagrangian,
-    reduced: &Reduced,
-    domain: &Domain,
-    motion: Option<&Motion>,
-) -> Option<Vec<f64>> {
-    let motion = motion.filter(|_| !matches!(domain, Domain::Workspace(_)))?;
+pub fn estimate(lagrangian: &Lagrangian, reduced: &Reduced, domain: &Domain) -> Option<Vec<f64>> {
+    let motion = domain.motion()?;
     let largest = |residual: &super::Residual| {
-        let region = Region::new(domain, Some(motion), &residual.polynomial.joints);
+        let region = Region::new(domain, &residual.polynomial.joints);
         let k = region.joints.len();
         let mut scratch = Scratch::default();
         let mut x = vec![0.0; k + 1];
@@ -34,6 +28,6 @@ pub fn estimate(
         };
         (0..=INSTANTS).map(&mut at).fold(0.0, f64::max)
     };
-    let residuals = residuals(lagrangian, reduced, domain, Some(motion));
+    let residuals = residuals(lagrangian, reduced, domain);
     Some(residuals.par_iter().map(|vertices| vertices.iter().map(largest).fold(0.0, f64::max)).collect())
 }

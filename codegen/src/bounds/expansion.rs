@@ -61,12 +61,12 @@ impl<'a> Expander<'a> {
         let term = |(size, exponents): (f64, &[i8])| {
             let (mut most, mut rates) = (size, [0.0; MAX_JOINTS]);
             for slot in 0..k {
-                let (e, reach) = (f64::from(exponents[slot]).abs(), residual.reach[slot]);
+                let (e, position_bound) = (f64::from(exponents[slot]).abs(), residual.position_bound[slot]);
                 if !prismatic[slot] {
                     rates[slot] = e;
-                } else if e > 0.0 && reach > 0.0 {
-                    rates[slot] = e / reach;
-                    most *= libm::pow(reach, e);
+                } else if e > 0.0 && position_bound > 0.0 {
+                    rates[slot] = e / position_bound;
+                    most *= libm::pow(position_bound, e);
                 }
             }
             (most, rates)
@@ -106,29 +106,29 @@ impl<'a> Expander<'a> {
         }
         let k = self.residual.polynomial.joints.len();
         // Rounded centres of cells stay inside.
-        let reach = &self.residual.reach;
-        let wider = |(t, reach): (&f64, &f64)| t * (1.0 + 1e-9) + 1e-12 * (1.0 + reach);
-        let total: Vec<f64> = frame.total.iter().zip(reach).map(wider).collect();
+        let position_bound = &self.residual.position_bound;
+        let wider = |(t, position_bound): (&f64, &f64)| t * (1.0 + 1e-9) + 1e-12 * (1.0 + position_bound);
+        let total: Vec<f64> = frame.total.iter().zip(position_bound).map(wider).collect();
         let (mut remainder, mut slack) = self.beyond(&total, limit)?;
         let mut coefficients = self.derivatives(&frame.centre[..k]);
 
         // What the highest orders hold can be less than what is left out in any case.
         let mut order = ORDER;
         while order > LEAST {
-            let (mut dropped, mut slopes) = (0.0, vec![0.0; k]);
+            let (mut simplified_arm, mut slopes) = (0.0, vec![0.0; k]);
             for (c, exponents) in coefficients.iter().zip(&self.monomials[order].exponents) {
                 if degree(exponents) == order {
                     let size = c.abs() * monomial(exponents, &total);
-                    dropped += size;
+                    simplified_arm += size;
                     for i in (0..k).filter(|&i| total[i] > 0.0) {
                         slopes[i] += f64::from(exponents[i]) * size / total[i];
                     }
                 }
             }
-            if remainder + dropped > limit {
+            if remainder + simplified_arm > limit {
                 break;
             }
-            remainder += dropped;
+            remainder += simplified_arm;
             slack.iter_mut().zip(slopes).for_each(|(slack, slope)| *slack += slope);
             let mut exponents = self.monomials[order].exponents.iter();
             coefficients.retain(|_| exponents.next().is_some_and(|e| degree(e) < order));
@@ -140,7 +140,8 @@ impl<'a> Expander<'a> {
         let widest: Vec<f64> = total.iter().map(|t| 2.0 * t).collect();
         let more = 1.0 + 1e-9;
         slack.iter_mut().for_each(|slack| *slack *= more);
-        let envelope = Envelope::new(tensors, &widest, &self.residual.reach, remainder * more, slack);
+        let envelope =
+            Envelope::new(tensors, &widest, &self.residual.position_bound, remainder * more, slack);
         let alive = Rc::clone(&self.alive);
         Some(Expansion { origin: frame.centre, order, coefficients, envelope, _alive: alive })
     }

@@ -12,9 +12,8 @@
 
 use super::{Certificate, Effort, certified};
 use crate::arm::{Parameter, Uncertainty};
+use crate::domain::Domain;
 use crate::lagrangian::Lagrangian;
-use crate::measure::Domain;
-use crate::motion::Motion;
 use crate::reduction::Reduced;
 
 /// k_m = 1 + max_i |1 − k_i|: infinite where such a parameter is 0 for the arm itself, 1 where none varies.
@@ -37,11 +36,10 @@ pub fn factor_bounds(
     reduced: &Reduced,
     uncertainty: &Uncertainty,
     domain: &Domain,
-    motion: Option<&Motion>,
     effort: &Effort,
 ) -> Vec<f64> {
     let known = Lagrangian { ranges: vec![[0.0; 2]; lagrangian.ranges.len()], ..lagrangian.clone() };
-    let own: Vec<Certificate> = certified(&known, reduced, domain, motion, effort);
+    let own: Vec<Certificate> = certified(&known, reduced, domain, effort);
     let scaled = |(m, own): (usize, &Certificate)| {
         if own.bound == 0.0 { 0.0 } else { own.bound * factor(lagrangian, reduced, uncertainty, m) }
     };

@@ -80,12 +80,12 @@ impl Polynomial {
         })
     }
 
-    /// Σ|c| |∂²/∂q²| over the terms, for the joint `slot` and |q| ≤ `reach` by slot.
-    pub(super) fn curvature_within(&self, slot: usize, reach: &[f64]) -> f64 {
+    /// Σ|c| |∂²/∂q²| over the terms, for the joint `slot` and |q| ≤ `position_bound` by slot.
+    pub(super) fn curvature_within(&self, slot: usize, position_bound: &[f64]) -> f64 {
         let most = self.curvature(slot);
         let size = |(size, exponents): (f64, &[i8])| {
             let powers = (0..exponents.len()).filter(|&s| self.prismatic[s]);
-            powers.fold(size, |size, s| (0..exponents[s]).fold(size, |p, _| p * reach[s]))
+            powers.fold(size, |size, s| (0..exponents[s]).fold(size, |p, _| p * position_bound[s]))
         };
         most.terms().map(size).sum()
     }

@@ -14,6 +14,7 @@ mod expansion;
 mod factor;
 mod grid;
 mod lattice;
+mod model_error;
 mod peak;
 mod polynomial;
 mod queue;
@@ -22,32 +23,35 @@ mod recursion;
 mod region;
 mod residual;
 mod rounding;
-mod sines;
 mod sum;
 mod taylor;
 mod tensors;
 #[cfg(test)]
 mod tests;
 mod torque;
+mod torque_scale;
+mod trig;
 mod weighted;
 
 pub use estimate::estimate;
 pub use factor::{factor, factor_bounds};
+pub(crate) use model_error::ModelError;
 pub use peak::workspace_peak_torque;
 pub use rates::Rates;
 pub use recursion::{beside_expansion, recursion, recursion_rounding, rounded_angles};
-pub use region::reach;
+pub use region::position_bound;
 pub(crate) use rounding::{percent_up, printed_down, printed_up, published, vanishing};
-pub(crate) use sines::largest_growth;
-pub use sines::with_sines;
 pub use torque::{Met, Torque, peak_torque, separate_error, torque_error, torque_exceeds};
+pub(crate) use torque_scale::SCATTERED;
+pub use torque_scale::TorqueScale;
+pub(crate) use trig::largest_growth;
+pub use trig::with_sines;
 
 use rayon::prelude::*;
 
+use crate::domain::Domain;
 use crate::dynamics::{Size, Sizes};
 use crate::lagrangian::{Coefficient, Combination, Entry, Lagrangian};
-use crate::measure::Domain;
-use crate::motion::Motion;
 use crate::progress::{Progress, Silent, Stage};
 use crate::reduction::{Reduced, plus};
 use polynomial::Polynomial;
@@ -64,6 +68,7 @@ pub const LONG: usize = 1000;
 pub const DIGITS: usize = 6;
 
 /// How much work a certificate may take.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
     /// Where bound and largest value found differ by less than this fraction, branch and bound stops.
@@ -82,6 +87,26 @@ impl Default for Effort {
     /// What generation spends.
     fn default() -> Self {
         Self { tolerance: 0.01, boxes: 300_000, starts: 12, seek_tube: false }
+    }
+}
+
+impl Effort {
+    /// The same with another number of boxes for each residual.
+    #[must_use]
+    pub fn boxes(self, boxes: usize) -> Self {
+        Self { boxes, ..self }
+    }
+
+    /// The same with another number of starts of the search from below.
+    #[must_use]
+    pub fn starts(self, starts: usize) -> Self {
+        Self { starts, ..self }
+    }
+
+    /// The same, where the smallest sufficient tube is sought or not.
+    #[must_use]
+    pub fn seek_tube(self, seek_tube: bool) -> Self {
+        Self { seek_tube, ..self }
     }
 }
 
@@ -133,10 +158,9 @@ pub fn certified(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     domain: &Domain,
-    motion: Option<&Motion>,
     effort: &Effort,
 ) -> Vec<Certificate> {
-    certified_beside(lagrangian, reduced, domain, motion, effort, |_| None)
+    certified_beside(lagrangian, reduced, domain, effort, |_| None)
 }
 
 /// As [`certified`], telling `progress` of every coefficient done.
@@ -144,11 +168,10 @@ pub fn certified_telling(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     domain: &Domain,
-    motion: Option<&Motion>,
     effort: &Effort,
     progress: &dyn Progress,
 ) -> Vec<Certificate> {
-    certify(lagrangian, reduced, domain, motion, effort, |_| None, progress)
+    certify(lagrangian, reduced, domain, effort, |_| None, progress)
 }
 
 /// As [`certified`], where some coefficients' certificates are known already.
@@ -156,24 +179,22 @@ pub fn certified_beside(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     domain: &Domain,
-    motion: Option<&Motion>,
     effort: &Effort,
     known: impl Fn(usize) -> Option<Certificate> + Sync,
 ) -> Vec<Certificate> {
-    certify(lagrangian, reduced, domain, motion, effort, known, &Silent)
+    certify(lagrangian, reduced, domain, effort, known, &Silent)
 }
 
 fn certify(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     domain: &Domain,
-    motion: Option<&Motion>,
     effort: &Effort,
     known: impl Fn(usize) -> Option<Certificate> + Sync,
     progress: &dyn Progress,
 ) -> Vec<Certificate> {
-    let reach = reach(domain, motion);
-    let residuals = residuals(lagrangian, reduced, domain, motion);
+    let position_bound = position_bound(domain);
+    let residuals = residuals(lagrangian, reduced, domain);
     let simplified = residuals.iter().filter(|residuals| !residuals.is_empty()).count();
     let stage = Stage::new(progress, "certification of coefficients", simplified);
     residuals
@@ -188,10 +209,10 @@ fn certify(
                 return certificate;
             }
             let size = size(&lagrangian.coefficients[m]);
-            let proof = branch::maximum(&residuals, domain, motion, effort, FLOOR * size);
-            let rounding = rounding::published(lagrangian, m, reduced, &reach);
+            let proof = branch::maximum(&residuals, domain, effort, FLOOR * size);
+            let rounding = rounding::published(lagrangian, m, reduced, &position_bound);
             let bound = (proof.upper + rounding).next_up();
-            let region = Region::new(domain, motion, &residuals[proof.residual].polynomial.joints);
+            let region = Region::new(domain, &residuals[proof.residual].polynomial.joints);
             let (time, witness) = region.position(lagrangian.dof, &proof.found.x);
             let parameters = vertex(&active(lagrangian, reduced, m), lagrangian, proof.residual);
             let (found, boxes) = (proof.found.height, proof.boxes);
@@ -202,19 +223,14 @@ fn certify(
 
 /// What is left out of each coefficient, in order, at every vertex of the box of the uncertain parameters on which that
 /// depends; nothing for coefficients that are exact.
-fn residuals(
-    lagrangian: &Lagrangian,
-    reduced: &Reduced,
-    domain: &Domain,
-    motion: Option<&Motion>,
-) -> Vec<Vec<Residual>> {
-    let reach = reach(domain, motion);
+fn residuals(lagrangian: &Lagrangian, reduced: &Reduced, domain: &Domain) -> Vec<Vec<Residual>> {
+    let position_bound = position_bound(domain);
     (0..lagrangian.coefficients.len())
         .into_par_iter()
         .map(|m| {
             let prepare = |terms: Combination| {
                 let polynomial = Polynomial::new(terms.iter().map(|&(l, k)| (&lagrangian.functions[l], k)));
-                Residual::new(polynomial, domain, motion, &reach)
+                Residual::new(polynomial, domain, &position_bound)
             };
             at_vertices(lagrangian, reduced, m).into_iter().map(prepare).collect()
         })

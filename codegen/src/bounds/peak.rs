@@ -7,7 +7,7 @@ use super::composite::{Composite, apart};
 use crate::arm::Arm;
 use crate::dynamics::{gravity, inverse_dynamics, mass_matrix, passivity_torque, positions};
 use crate::lagrangian::MAX_JOINTS;
-use crate::spread::{Spread, corner, in_box};
+use crate::numerics::low_discrepancy::{LowDiscrepancy, corner, in_box};
 
 /// Positions looked at, besides the corners.
 const POSITIONS: usize = 1024;
@@ -29,7 +29,7 @@ const ROUNDS: usize = 6;
 /// peak is no larger a part of the true one.
 pub fn workspace_peak_torque(arm: &Arm, limits: &[[f64; 2]], rates: &Rates) -> Vec<f64> {
     let n = arm.dof();
-    let spread = Spread::new(n);
+    let spread = LowDiscrepancy::new(n);
     let units: Vec<Vec<f64>> = (0..POSITIONS)
         .map(|index| spread.point(index))
         .chain((0..1 << n).map(|index| corner(index, n)))
@@ -253,7 +253,7 @@ mod tests {
     /// Another search: random positions, and from the best of them random steps that shrink.
     fn other(arm: &Arm, limits: &[[f64; 2]], rates: &Rates, i: usize) -> f64 {
         let n = arm.dof();
-        let spread = Spread::new(2 * n);
+        let spread = LowDiscrepancy::new(2 * n);
         let value = |unit: &[f64]| largest(arm, &in_box(limits, unit), rates)[i];
         let mut seen: Vec<(Vec<f64>, f64)> = (0..1500)
             .map(|index| {
@@ -294,7 +294,7 @@ mod tests {
             };
             let limits = arm.joint_box();
             let corners = Corners::new(&arm, &limits, &rates);
-            let spread = Spread::new(n);
+            let spread = LowDiscrepancy::new(n);
             let mut run = 0;
             for index in 0..100 {
                 let unit = if index < 80 { spread.point(index) } else { corner(3 * index, n) };

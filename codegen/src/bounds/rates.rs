@@ -18,8 +18,8 @@ pub struct Rates {
 impl Rates {
     /// The motion's own: q̇ = v_r = q̇_d and a_r = q̈_d.
     pub fn of(motion: &Motion) -> Self {
-        let reach = motion.reach();
-        let (speed, acceleration) = (reach.speed, reach.acceleration);
+        let position_bound = motion.position_bound();
+        let (speed, acceleration) = (position_bound.speed, position_bound.acceleration);
         Self { reference_speed: speed.clone(), speed, reference_acceleration: acceleration }
     }
 

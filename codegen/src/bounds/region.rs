@@ -1,7 +1,7 @@
 //! The domain as a box of variables: the errors (or positions) of the joints that occur, and time.
 
+use crate::domain::Domain;
 use crate::lagrangian::MAX_JOINTS;
-use crate::measure::Domain;
 use crate::motion::Motion;
 
 /// Most variables: all joints and time.
@@ -64,12 +64,13 @@ pub struct Region<'a> {
 
 impl<'a> Region<'a> {
     /// The part of `domain` that `joints` see.
-    pub fn new(domain: &Domain, motion: Option<&'a Motion>, joints: &'a [usize]) -> Self {
+    pub fn new(domain: &'a Domain, joints: &'a [usize]) -> Self {
         let mut root = Cell { low: [0.0; MAX_VARIABLES], high: [0.0; MAX_VARIABLES] };
-        let (side, motion): (Box<dyn Fn(usize) -> [f64; 2]>, _) = match domain {
-            Domain::Workspace(limits) => (Box::new(|j| limits[j]), None),
-            Domain::Tube(errors) => (Box::new(|j| [-errors[j], errors[j]]), motion),
-            Domain::Trajectory => (Box::new(|_| [0.0; 2]), motion),
+        let motion = domain.motion();
+        let side = |j: usize| match domain {
+            Domain::Workspace(limits) => limits[j],
+            Domain::Tube(_, errors) => [-errors[j], errors[j]],
+            Domain::Path(_) => [0.0; 2],
         };
         for (slot, &j) in joints.iter().enumerate() {
             [root.low[slot], root.high[slot]] = side(j);
@@ -135,14 +136,12 @@ impl<'a> Region<'a> {
 }
 
 /// Bounds on |q_j| over a domain, by joint of the arm.
-pub fn reach(domain: &Domain, motion: Option<&Motion>) -> Vec<f64> {
-    match (domain, motion) {
-        (Domain::Workspace(limits), _) => limits.iter().map(|[a, b]| a.abs().max(b.abs())).collect(),
-        (Domain::Tube(errors), Some(motion)) => {
-            motion.reach().position.iter().zip(errors).map(|(q, e)| q + e.abs()).collect()
+pub fn position_bound(domain: &Domain) -> Vec<f64> {
+    match domain {
+        Domain::Workspace(limits) => limits.iter().map(|[a, b]| a.abs().max(b.abs())).collect(),
+        Domain::Tube(motion, errors) => {
+            motion.position_bound().position.iter().zip(errors).map(|(q, e)| q + e.abs()).collect()
         }
-        (Domain::Tube(errors), None) => errors.iter().map(|e| e.abs()).collect(),
-        (Domain::Trajectory, Some(motion)) => motion.reach().position,
-        (Domain::Trajectory, None) => vec![0.0; MAX_JOINTS],
+        Domain::Path(motion) => motion.position_bound().position,
     }
 }

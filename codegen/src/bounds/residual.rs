@@ -4,8 +4,7 @@ use super::envelope::{Enclosure, Envelope};
 use super::polynomial::{Jet, Polynomial, Scratch};
 use super::region::{Cell, Frame, Region};
 use super::tensors::Tensors;
-use crate::measure::Domain;
-use crate::motion::Motion;
+use crate::domain::Domain;
 
 /// A polynomial with all that its enclosures need.
 #[derive(Clone, Debug)]
@@ -13,21 +12,21 @@ pub struct Residual {
     /// f.
     pub polynomial: Polynomial,
     /// Bounds on |q_j|, one for each of the polynomial's joints.
-    pub reach: Vec<f64>,
+    pub position_bound: Vec<f64>,
     /// Bounds over the whole domain.
     envelope: Envelope,
 }
 
 impl Residual {
-    /// Prepares `polynomial` for `domain`, in which |q_j| ≤ `reach`.
-    pub fn new(polynomial: Polynomial, domain: &Domain, motion: Option<&Motion>, reach: &[f64]) -> Self {
-        let reach: Vec<f64> = polynomial.joints.iter().map(|&j| reach[j]).collect();
-        let tensors = Tensors::new(polynomial.terms(), |slot| polynomial.prismatic[slot], &reach);
-        let region = Region::new(domain, motion, &polynomial.joints);
+    /// Prepares `polynomial` for `domain`, in which |q_j| ≤ `position_bound`.
+    pub fn new(polynomial: Polynomial, domain: &Domain, position_bound: &[f64]) -> Self {
+        let position_bound: Vec<f64> = polynomial.joints.iter().map(|&j| position_bound[j]).collect();
+        let tensors = Tensors::new(polynomial.terms(), |slot| polynomial.prismatic[slot], &position_bound);
+        let region = Region::new(domain, &polynomial.joints);
         let widest = region.frame(&region.root).total;
-        let slack = vec![0.0; reach.len()];
-        let envelope = Envelope::new(tensors, &widest, &reach, 0.0, slack);
-        Self { polynomial, reach, envelope }
+        let slack = vec![0.0; position_bound.len()];
+        let envelope = Envelope::new(tensors, &widest, &position_bound, 0.0, slack);
+        Self { polynomial, position_bound, envelope }
     }
 
     /// The jet at the centre of `frame`.

@@ -40,21 +40,21 @@ pub const fn gamma(k: f64) -> f64 {
     ku / (1.0 - ku)
 }
 
-/// E + C + X for coefficient `m` of the simplified model, where |q_j| ≤ `reach`.
-pub fn published(lagrangian: &Lagrangian, m: usize, reduced: &Reduced, reach: &[f64]) -> f64 {
-    let size = |l: usize| monomial(lagrangian, l, reach);
+/// E + C + X for coefficient `m` of the simplified model, where |q_j| ≤ `position_bound`.
+pub fn published(lagrangian: &Lagrangian, m: usize, reduced: &Reduced, position_bound: &[f64]) -> f64 {
+    let size = |l: usize| monomial(lagrangian, l, position_bound);
     let sum = |terms: &Combination| -> f64 { terms.iter().map(|&(l, k)| k.abs() * size(l)).sum() };
-    let largest = reach.iter().fold(1.0, |p: f64, &q| p * (q * q).max(1.0));
+    let largest = position_bound.iter().fold(1.0, |p: f64, &q| p * (q * q).max(1.0));
     let kept = &reduced.combinations[m];
     let evaluation = |terms: &Combination| gamma(64.0 + terms.len() as f64) * sum(terms);
     let exact = |terms: &Combination| gamma(1024.0) * sum(terms);
     let coefficient = &lagrangian.coefficients[m];
     // Products take their parameters as they are, and these may cancel where the combination's do not.
-    let products = reduced.sparse.as_ref().map_or(0.0, |sparse| {
+    let products = reduced.sparse().map_or(0.0, |sparse| {
         let (sum, count) = sparse.magnitude(m);
         gamma(256.0 + count as f64) * sum * largest
     });
-    let recursion = reduced.dropped.as_ref().map_or(0.0, |dropped| dropped.rounding[m]);
+    let recursion = reduced.simplified_arm().map_or(0.0, |simplified_arm| simplified_arm.rounding[m]);
     let own = evaluation(kept)
         + products
         + recursion
@@ -68,18 +68,18 @@ pub fn published(lagrangian: &Lagrangian, m: usize, reduced: &Reduced, reach: &[
     own + varied.sum::<f64>()
 }
 
-/// What the entries that cannot be told from zero may be, whatever the uncertain parameters, where |q_j| ≤ `reach`.
-pub fn vanishing(lagrangian: &Lagrangian, reach: &[f64]) -> Vec<(Entry, f64)> {
-    let largest = reach.iter().fold(1.0, |p: f64, &q| p * (q * q).max(1.0));
+/// What the entries that cannot be told from zero may be, whatever the uncertain parameters, where |q_j| ≤ `position_bound`.
+pub fn vanishing(lagrangian: &Lagrangian, position_bound: &[f64]) -> Vec<(Entry, f64)> {
+    let largest = position_bound.iter().fold(1.0, |p: f64, &q| p * (q * q).max(1.0));
     let widest = || std::iter::once(1.0).chain(lagrangian.ranges.iter().map(|[low, high]| high.max(-low)));
     let most = |errors: &[Accuracy]| errors.iter().zip(widest()).map(|(a, u)| u * a.error).sum::<f64>();
     lagrangian.vanishing.iter().map(|(entry, errors)| (*entry, most(errors) * largest)).collect()
 }
 
 /// sup|ψ_l|.
-pub fn monomial(lagrangian: &Lagrangian, l: usize, reach: &[f64]) -> f64 {
+pub fn monomial(lagrangian: &Lagrangian, l: usize, position_bound: &[f64]) -> f64 {
     let power = &lagrangian.functions[l].power;
-    reach.iter().zip(power).fold(1.0, |p, (&q, &e)| (0..e).fold(p, |p, _| p * q))
+    position_bound.iter().zip(power).fold(1.0, |p, (&q, &e)| (0..e).fold(p, |p, _| p * q))
 }
 
 /// The least decimal number of `digits` digits that is not below `x`, or `x` itself where there is none.

@@ -84,9 +84,12 @@ impl Sum {
     /// Bound on Σ_m Ū_m |∂²r_m/∂q²| for the position q of `joint`, over the box `limits`.
     pub fn curvature_within(&self, joint: usize, limits: &[[f64; 2]]) -> f64 {
         let one = |f: &Polynomial| {
-            let reach: Vec<f64> =
+            let position_bound: Vec<f64> =
                 f.joints.iter().map(|&j| limits[j][0].abs().max(limits[j][1].abs())).collect();
-            f.joints.iter().position(|&j| j == joint).map_or(0.0, |slot| f.curvature_within(slot, &reach))
+            f.joints
+                .iter()
+                .position(|&j| j == joint)
+                .map_or(0.0, |slot| f.curvature_within(slot, &position_bound))
         };
         let member = |m: &Member| m.multiplier * m.vertices.iter().map(one).fold(0.0, f64::max);
         self.members.iter().map(member).sum::<f64>() * (1.0 + ENCLOSURE)

@@ -22,13 +22,13 @@ pub struct Tensors {
 }
 
 impl Tensors {
-    /// The tensors of a sum of terms of the given magnitudes and exponents, where |q_j| ≤ `reach`.
+    /// The tensors of a sum of terms of the given magnitudes and exponents, where |q_j| ≤ `position_bound`.
     pub fn new<'a>(
         terms: impl Iterator<Item = (f64, &'a [i8])>,
         prismatic: impl Fn(usize) -> bool,
-        reach: &[f64],
+        position_bound: &[f64],
     ) -> Self {
-        let k = reach.len();
+        let k = position_bound.len();
         let mut out = Self {
             joints: k,
             value: 0.0,
@@ -39,7 +39,7 @@ impl Tensors {
         for (size, exponents) in terms {
             let mut factors = [CONSTANT; MAX_JOINTS];
             for slot in (0..k).filter(|&slot| exponents[slot] != 0) {
-                factors[slot] = derivatives(exponents[slot], prismatic(slot), reach[slot]);
+                factors[slot] = derivatives(exponents[slot], prismatic(slot), position_bound[slot]);
             }
             out.add(size, &factors[..k]);
         }
@@ -107,7 +107,7 @@ impl Tensors {
 }
 
 /// sup|φ|, sup|φ′|, sup|φ″|, sup|φ‴| of one joint's factor.
-fn derivatives(exponent: i8, prismatic: bool, reach: f64) -> [f64; 4] {
+fn derivatives(exponent: i8, prismatic: bool, position_bound: f64) -> [f64; 4] {
     let k = f64::from(exponent).abs();
     if !prismatic {
         return [1.0, k, k * k, k * k * k];
@@ -119,7 +119,7 @@ fn derivatives(exponent: i8, prismatic: bool, reach: f64) -> [f64; 4] {
         if left < 0 {
             break;
         }
-        *out = factor * (0..left).fold(1.0, |power, _| power * reach);
+        *out = factor * (0..left).fold(1.0, |power, _| power * position_bound);
         factor *= f64::from(left);
     }
     out

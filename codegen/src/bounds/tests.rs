@@ -1,19 +1,21 @@
 //! Enclosures against dense points.
 
+use std::sync::Arc;
+
 use super::branch::{halves, maximum};
 use super::expansion::Expander;
 use super::polynomial::{Polynomial, Scratch};
 use super::region::{Cell, Region};
 use super::residual::Residual;
 use super::{Bounds, DIGITS, Effort};
+use crate::domain::Domain;
 use crate::lagrangian::{Function, MAX_JOINTS};
-use crate::measure::Domain;
 use crate::motion::Motion;
-use crate::spread::Spread;
+use crate::numerics::low_discrepancy::LowDiscrepancy;
 
 /// Twenty terms over three revolute joints and a prismatic one, in slots 0, 1, 3 and 2.
 fn terms() -> Vec<(Function, f64)> {
-    let spread = Spread::new(6);
+    let spread = LowDiscrepancy::new(6);
     let term = |index: usize| {
         let u = spread.point(index);
         let pick = |x: f64, low: i8, count: f64| low + (x * count) as i8;
@@ -61,17 +63,16 @@ fn the_jet_is_value_gradient_and_hessian() {
 #[test]
 fn no_point_of_a_cell_exceeds_its_enclosure() {
     let terms = terms();
-    let motion = motion();
-    let tube = Domain::Tube(vec![0.2; 4]);
+    let tube = Domain::Tube(Arc::new(motion()), vec![0.2; 4]);
     let workspace = Domain::Workspace(vec![[-1.0, 2.0], [-3.0, 0.5], [0.1, 0.9], [-2.0, 2.0]]);
-    for (domain, motion) in [(tube, Some(&motion)), (workspace, None)] {
+    for domain in [tube, workspace] {
         let polynomial = Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k)));
-        let reach = super::reach(&domain, motion);
-        let residual = Residual::new(polynomial, &domain, motion, &reach);
-        let region = Region::new(&domain, motion, &residual.polynomial.joints);
+        let position_bound = super::position_bound(&domain);
+        let residual = Residual::new(polynomial, &domain, &position_bound);
+        let region = Region::new(&domain, &residual.polynomial.joints);
         let (count, mut scratch) = (region.variables(), Scratch::default());
         let mut expander = Expander::new(&residual);
-        let (cells, inside) = (Spread::new(2 * count), Spread::new(count));
+        let (cells, inside) = (LowDiscrepancy::new(2 * count), LowDiscrepancy::new(count));
         for index in 0..300 {
             let unit = cells.point(index);
             let size = [1.0, 0.3, 0.1, 0.01][index % 4];
@@ -99,13 +100,13 @@ fn no_point_of_a_cell_exceeds_its_enclosure() {
                 let u = inside.point(point);
                 let x: Vec<f64> =
                     (0..count).map(|i| cell.low[i] + u[i] * (cell.high[i] - cell.low[i])).collect();
-                let q = position(motion, &x);
+                let q = position(domain.motion(), &x);
                 let f = value(&terms, &q);
                 assert!(f <= up.upper && -f <= down.upper, "cell {index}: {f} {} {}", up.upper, down.upper);
                 for i in (0..count).filter(|&i| up.slope[i] != 0) {
                     let mut further = x.clone();
                     further[i] = cell.high[i];
-                    let rise = value(&terms, &position(motion, &further)) - f;
+                    let rise = value(&terms, &position(domain.motion(), &further)) - f;
                     assert!(rise * f64::from(up.slope[i]) >= -1e-13, "cell {index}, slope {i}: {rise}");
                 }
             }
@@ -125,8 +126,8 @@ fn the_excess_over_the_quadratic_falls_with_the_third_power() {
     let terms = terms();
     let domain = Domain::Workspace(vec![[-1.0, 1.0]; 4]);
     let polynomial = Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k)));
-    let residual = Residual::new(polynomial, &domain, None, &[1.0; 4]);
-    let region = Region::new(&domain, None, &residual.polynomial.joints);
+    let residual = Residual::new(polynomial, &domain, &[1.0; 4]);
+    let region = Region::new(&domain, &residual.polynomial.joints);
     let mut scratch = Scratch::default();
     // Along one variable the quadratic is maximised exactly, so only the remainder is left.
     let mut excess = |w: f64| {
@@ -143,9 +144,8 @@ fn the_excess_over_the_quadratic_falls_with_the_third_power() {
 
 #[test]
 fn a_joint_maximum_is_the_largest_of_the_separate_ones_for_fewer_boxes() {
-    let motion = motion();
-    let domain = Domain::Tube(vec![0.2; 4]);
-    let reach = super::reach(&domain, Some(&motion));
+    let domain = Domain::Tube(Arc::new(motion()), vec![0.2; 4]);
+    let position_bound = super::position_bound(&domain);
     // What uncertain parameters do to a residual: each vertex of their box changes a few of its coefficients, and at
     // some a joint drops out.
     let vertex = |bits: usize| {
@@ -157,14 +157,14 @@ fn a_joint_maximum_is_the_largest_of_the_separate_ones_for_fewer_boxes() {
             terms.retain(|(psi, _)| psi.power[2] == 0);
         }
         let polynomial = Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k)));
-        Residual::new(polynomial, &domain, Some(&motion), &reach)
+        Residual::new(polynomial, &domain, &position_bound)
     };
     let residuals: Vec<Residual> = (0..8).map(vertex).collect();
     let effort = Effort { boxes: 20_000, ..Effort::default() };
-    let joint = maximum(&residuals, &domain, Some(&motion), &effort, 0.0);
+    let joint = maximum(&residuals, &domain, &effort, 0.0);
     let separate: Vec<_> = residuals
         .iter()
-        .map(|residual| maximum(std::slice::from_ref(residual), &domain, Some(&motion), &effort, 0.0))
+        .map(|residual| maximum(std::slice::from_ref(residual), &domain, &effort, 0.0))
         .collect();
     let found = separate.iter().map(|proof| proof.found.height).fold(0.0, f64::max);
     let upper = separate.iter().map(|proof| proof.upper).fold(0.0, f64::max);
@@ -174,7 +174,7 @@ fn a_joint_maximum_is_the_largest_of_the_separate_ones_for_fewer_boxes() {
     assert!((joint.found.height - separate[joint.residual].found.height).abs() <= 1e-3 * found);
     let boxes: usize = separate.iter().map(|proof| proof.boxes).sum();
     assert!(joint.boxes < boxes / 2, "{} of {boxes}", joint.boxes);
-    assert_eq!(maximum(&[], &domain, Some(&motion), &effort, 0.0), super::branch::Proof::default());
+    assert_eq!(maximum(&[], &domain, &effort, 0.0), super::branch::Proof::default());
 }
 
 #[test]
@@ -182,8 +182,8 @@ fn an_expansion_is_near_the_residual_and_its_bounds_nearer_than_the_residual_s()
     let terms = terms();
     let domain = Domain::Workspace(vec![[-1.0, 1.0]; 4]);
     let polynomial = Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k)));
-    let residual = Residual::new(polynomial, &domain, None, &[1.0; 4]);
-    let region = Region::new(&domain, None, &residual.polynomial.joints);
+    let residual = Residual::new(polynomial, &domain, &[1.0; 4]);
+    let region = Region::new(&domain, &residual.polynomial.joints);
     let (mut expander, mut scratch) = (Expander::new(&residual), Scratch::default());
     let mut cell = Region::point(&[0.3, -0.4, 0.5, 0.2]);
     for i in 0..4 {
@@ -215,7 +215,7 @@ fn an_expansion_is_near_the_residual_and_its_bounds_nearer_than_the_residual_s()
 
 #[test]
 fn published_bounds_have_few_digits_and_never_lie_below() {
-    let spread = Spread::new(1);
+    let spread = LowDiscrepancy::new(1);
     let value = |index: usize| 10.0 * spread.point(index)[0] + 1e-7;
     let row = |from: usize| (from..from + 3).map(value).collect::<Vec<f64>>();
     let own = Bounds {

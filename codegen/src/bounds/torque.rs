@@ -3,15 +3,15 @@
 use rayon::prelude::*;
 
 use super::rates::Rates;
-use super::region::{Region, reach};
+use super::region::{Region, position_bound};
 use super::residual::Residual;
 use super::sum::{Part, Stop};
 use super::weighted::Weighted;
 use super::{Certificate, lattice, residuals, rounding};
 use crate::arm::Arm;
+use crate::domain::Domain;
 use crate::dynamics::inverse_dynamics;
 use crate::lagrangian::Lagrangian;
-use crate::measure::Domain;
 use crate::motion::Motion;
 use crate::reduction::Reduced;
 
@@ -65,11 +65,10 @@ pub fn torque_error(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     domain: &Domain,
-    motion: Option<&Motion>,
     certificates: &[Certificate],
     rates: &Rates,
 ) -> Vec<f64> {
-    let sums = Sums::new(lagrangian, reduced, domain, motion);
+    let sums = Sums::new(lagrangian, reduced, domain);
     let joints = 0..lagrangian.dof;
     joints.into_par_iter().map(|i| sums.bound(i, rates, certificates, None)).collect()
 }
@@ -92,12 +91,11 @@ pub fn torque_exceeds(
     lagrangian: &Lagrangian,
     reduced: &Reduced,
     domain: &Domain,
-    motion: Option<&Motion>,
     certificates: &[Certificate],
     rates: &Rates,
     limits: &[f64],
 ) -> Option<usize> {
-    let sums = Sums::new(lagrangian, reduced, domain, motion);
+    let sums = Sums::new(lagrangian, reduced, domain);
     let within = |i: &usize| sums.bound(*i, rates, certificates, Some(limits[*i])) <= limits[*i];
     (0..lagrangian.dof).into_par_iter().find_first(|i| !within(i))
 }
@@ -107,21 +105,15 @@ struct Sums<'a> {
     lagrangian: &'a Lagrangian,
     reduced: &'a Reduced,
     domain: &'a Domain,
-    motion: Option<&'a Motion>,
     /// At the vertices of the uncertain parameters' box.
     residuals: Vec<Vec<Residual>>,
-    reach: Vec<f64>,
+    position_bound: Vec<f64>,
 }
 
 impl<'a> Sums<'a> {
-    fn new(
-        lagrangian: &'a Lagrangian,
-        reduced: &'a Reduced,
-        domain: &'a Domain,
-        motion: Option<&'a Motion>,
-    ) -> Self {
-        let residuals = residuals(lagrangian, reduced, domain, motion);
-        Self { lagrangian, reduced, domain, motion, residuals, reach: reach(domain, motion) }
+    fn new(lagrangian: &'a Lagrangian, reduced: &'a Reduced, domain: &'a Domain) -> Self {
+        let residuals = residuals(lagrangian, reduced, domain);
+        Self { lagrangian, reduced, domain, residuals, position_bound: position_bound(domain) }
     }
 
     /// The bound for joint `i`.
@@ -136,7 +128,8 @@ impl<'a> Sums<'a> {
             if vertices.is_empty() || multipliers[m] <= 0.0 {
                 continue;
             }
-            extra += multipliers[m] * rounding::published(self.lagrangian, m, self.reduced, &self.reach);
+            extra +=
+                multipliers[m] * rounding::published(self.lagrangian, m, self.reduced, &self.position_bound);
             let cap = certificates[m].bound;
             parts.push(Part { vertices, multiplier: multipliers[m], cap });
             // Several vertices are enclosed by themselves.
@@ -162,8 +155,8 @@ impl<'a> Sums<'a> {
         let range = match self.domain {
             Domain::Workspace(limits) => lattice::range(&parts, limits, &stop),
             _ => {
-                let region = Region::new(self.domain, self.motion, &joints);
-                Weighted::new(parts, &terms, self.domain, self.motion, &self.reach).range(&region, &stop)
+                let region = Region::new(self.domain, &joints);
+                Weighted::new(parts, &terms, self.domain, &self.position_bound).range(&region, &stop)
             }
         };
         let bound = ((range.upper + extra).min(separate) * slack).next_up();

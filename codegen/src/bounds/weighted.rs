@@ -13,9 +13,8 @@ use super::queue::Queue;
 use super::region::{Cell, Frame, MAX_VARIABLES, Region};
 use super::residual::Residual;
 use super::sum::{Part, Range, Stop};
+use crate::domain::Domain;
 use crate::lagrangian::{Function, MAX_JOINTS};
-use crate::measure::Domain;
-use crate::motion::Motion;
 
 /// A sign that may change costs twice what lies beyond it; above this fraction of the residual's own bound that
 /// bound serves better.
@@ -35,8 +34,7 @@ impl<'a> Weighted<'a> {
         parts: Vec<Part<'a>>,
         terms: &[Vec<(&Function, f64)>],
         domain: &Domain,
-        motion: Option<&Motion>,
-        reach: &[f64],
+        position_bound: &[f64],
     ) -> Self {
         let mut sizes: BTreeMap<Function, f64> = BTreeMap::new();
         for (part, terms) in parts.iter().zip(terms) {
@@ -52,7 +50,7 @@ impl<'a> Weighted<'a> {
         }
         let whole = Polynomial::new(sizes.iter().map(|(psi, &k)| (psi, k)));
         let ceiling = parts.iter().map(|part| part.cap * part.multiplier).sum();
-        Self { parts, whole: Residual::new(whole, domain, motion, reach), ceiling }
+        Self { parts, whole: Residual::new(whole, domain, position_bound), ceiling }
     }
 
     /// Bounds the sum over `region`, which sees all joints, by best-first branch and bound.

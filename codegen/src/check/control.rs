@@ -2,16 +2,17 @@
 
 use nalgebra::DMatrix;
 
-use super::shape::{entries, has, matrix};
-use crate::error::Faults;
+use super::shape::entries;
+use crate::error::Diagnostics;
 use crate::spec::{ControlSpec, CoriolisTermSpec, LawSpec, MatrixSpec};
+use crate::text::has;
 
 /// Rounding that passes for symmetry or for zero, relative to the largest entry.
 const SLACK: f64 = 1e-9;
 
 /// Checks period, boundary layer, initial errors, and the gains: W, Pqq, Ω symmetric positive definite, P12 = Pqq⁻¹Ω
 /// symmetric and element-wise nonnegative.
-pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut Faults) {
+pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut Diagnostics) {
     if let Some(period) = control.period.filter(|period| *period <= 0.0) {
         faults.push("control.period", format!("is {period}"), "write a number above 0, in s");
     }
@@ -38,21 +39,21 @@ pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut F
 }
 
 /// ΔC1 has its place in one variant of one law; whether it is large enough takes the bounds to see.
-fn delta_c1(control: &ControlSpec, joints: Option<usize>, faults: &mut Faults) {
+fn delta_c1(control: &ControlSpec, joints: Option<usize>, faults: &mut Diagnostics) {
     if !control.law.has_bracket() && control.coriolis_term != CoriolisTermSpec::Matrix {
-        let mend = "remove it, or choose law `report`";
-        faults.push("control.coriolis_term", "goes with the laws `report` and `adaptive` alone", mend);
+        let help = "remove it, or choose law `report`";
+        faults.push("control.coriolis_term", "goes with the laws `report` and `adaptive` alone", help);
     }
     let Some(spec) = &control.delta_c1 else { return };
     if !control.law.has_bracket() || control.coriolis_term != CoriolisTermSpec::Matrix {
-        let mend = "remove it, or choose law `report` with `coriolis_term` `matrix`";
-        faults.push("control.delta_c1", "has no place in this law", mend);
+        let help = "remove it, or choose law `report` with `coriolis_term` `matrix`";
+        faults.push("control.delta_c1", "has no place in this law", help);
     }
     square("control.delta_c1", spec, joints, faults);
 }
 
 /// What is to be learnt takes the intervals that it lies in, and a law that learns.
-fn adaptation(control: &ControlSpec, faults: &mut Faults) {
+fn adaptation(control: &ControlSpec, faults: &mut Diagnostics) {
     if control.law == LawSpec::Adaptive && control.uncertainty.is_none() {
         faults.push(
             "control.uncertainty",
@@ -77,7 +78,7 @@ fn definite(
     field: &str,
     spec: &MatrixSpec,
     joints: Option<usize>,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) -> Option<DMatrix<f64>> {
     let wanted =
         "write a positive number, a list of positive numbers or a symmetric positive definite matrix";
@@ -107,10 +108,10 @@ fn square(
     field: &str,
     spec: &MatrixSpec,
     joints: Option<usize>,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) -> Option<DMatrix<f64>> {
     let n = joints?;
-    let Some(rows) = matrix(spec, n) else {
+    let Some(rows) = spec.by_rows(n) else {
         let found = match spec {
             MatrixSpec::Full(rows) => {
                 let widths: Vec<usize> = rows.iter().map(Vec::len).collect();
@@ -148,7 +149,7 @@ fn asymmetry(matrix: &DMatrix<f64>) -> Option<(usize, usize)> {
     pairs.find(|&(i, j)| (matrix[(i, j)] - matrix[(j, i)]).abs() > slack)
 }
 
-fn p12(pqq: DMatrix<f64>, omega: &DMatrix<f64>, faults: &mut Faults) {
+fn p12(pqq: DMatrix<f64>, omega: &DMatrix<f64>, faults: &mut Diagnostics) {
     let Some(factor) = pqq.cholesky() else { return };
     let p12 = factor.solve(omega);
     if let Some((i, j)) = asymmetry(&p12) {

@@ -1,42 +1,43 @@
 //! Whether the numbers of a specification make sense together with its arm.
 
+mod checked;
 mod control;
-mod design;
-mod measure;
+mod domain;
+mod gain_request;
 mod motion;
 mod name;
 mod shape;
+mod tuning;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::arm::{Arm, Built, MOST_JOINTS};
-use crate::error::{Error, Fault, Faults};
+use crate::error::{Diagnostic, Diagnostics, Error};
 use crate::load::{Draft, Loaded, draft};
 use crate::motion::Motion;
-use crate::sines::{COARSEST, FINEST};
 use crate::spec::{DictionarySpec, LawSpec, ModelSpec, Spec, TrigSpec};
+use crate::trig::{COARSEST, FINEST};
 
+pub use checked::{Checked, Control, GainRequest, GainSource, InitialError};
 pub(crate) use name::is_module_name;
-pub(crate) use shape::has;
-pub use shape::{matrix, vector};
+pub use tuning::Tuning;
 
-/// A specification that passed every check that needs no dynamics.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Checked {
-    /// The specification and its files.
-    pub loaded: Loaded,
-    /// Its arm and the warnings about it.
-    pub built: Built,
-    /// Its motion.
-    pub motion: Option<Motion>,
+/// How much of a specification is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// All of it.
+    Whole,
+    /// All but the controller.
+    Model,
 }
 
 /// Reads and checks the specification at `path`.
 ///
 /// # Errors
-/// Those of [`read`]; else [`Error::Input`] with every fault that [`examine`] finds.
+/// Those of [`read`] and [`checked`].
 pub fn prepare(path: &Path) -> Result<Checked, Error> {
-    from_loaded(read(path)?)
+    checked(read(path)?, Extent::Whole)
 }
 
 /// Reads the specification at `path`; where its shape is at fault, the faults of all values that can be read are told with
@@ -50,12 +51,12 @@ pub fn read(path: &Path) -> Result<Loaded, Error> {
     if faults.is_empty() {
         return Ok(loaded);
     }
-    let mut values = Faults::of(&loaded.path);
-    examine(&loaded, &mut values);
+    let mut values = Diagnostics::of(&loaded.path);
+    examine(&loaded, Extent::Whole, &mut values);
     // Faults of what stands in for a section, or of its absence, are none of the user's.
     let gone = |section: &str| lost.contains(section);
     let together = ["dictionary", "emit.trig", "control.law"];
-    let known = |fault: &&Fault| {
+    let known = |fault: &&Diagnostic| {
         let section = fault.field.split(['.', '[']).next().unwrap_or_default();
         !(gone(section) || gone("model") && together.contains(&fault.field.as_str()))
     };
@@ -63,35 +64,37 @@ pub fn read(path: &Path) -> Result<Loaded, Error> {
     Err(faults.into_error())
 }
 
-/// The same from a specification that is read already.
+/// Checks a specification that is read already.
 ///
 /// # Errors
-/// [`Error::Input`] with every fault that [`examine`] finds.
-pub fn from_loaded(loaded: Loaded) -> Result<Checked, Error> {
-    let mut faults = Faults::of(&loaded.path);
-    match examine(&loaded, &mut faults) {
-        (Some(built), motion) => faults.finish(Checked { loaded, built, motion }),
-        (None, _) => Err(faults.into_error()),
-    }
+/// [`Error::Input`] with every value of the specification and its files that cannot be.
+pub fn checked(loaded: Loaded, extent: Extent) -> Result<Checked, Error> {
+    let mut faults = Diagnostics::of(&loaded.path);
+    let (built, motion) = examine(&loaded, extent, &mut faults);
+    faults.finish(())?;
+    let defect = |what: &str| Error::Internal(format!("{what} was lost in its check"));
+    let built = built.ok_or_else(|| defect("the arm"))?;
+    let spec = &loaded.spec;
+    let control = spec.control.as_ref().filter(|_| extent == Extent::Whole);
+    let dense = |control| Control::new(control, built.arm.dof()).ok_or_else(|| defect("`control`"));
+    let control = control.map(dense).transpose()?;
+    let motion = motion.map(Arc::new);
+    let domain = checked::domain(spec, &built.arm, motion.as_ref()).ok_or_else(|| defect("`measure`"))?;
+    Ok(Checked { loaded, built, motion, domain, control })
 }
 
 /// Builds arm and motion of a specification and checks all values that need no dynamics.
 ///
 /// Every fault goes to `faults`; `None` stands for an arm or a motion that is at fault, or for no motion.
-pub fn examine(loaded: &Loaded, faults: &mut Faults) -> (Option<Built>, Option<Motion>) {
-    let (built, motion) = model(loaded, faults);
-    if let Some(control) = &loaded.spec.control {
-        let joints = joints(&loaded.spec, built.as_ref().map(|b| &b.arm));
-        control::check(control, joints, faults);
-        design::check(control, &loaded.spec, joints, faults);
-    }
-    (built, motion)
-}
-
-/// The same without the numbers of the control law: what the model alone takes.
-pub fn model(loaded: &Loaded, faults: &mut Faults) -> (Option<Built>, Option<Motion>) {
+fn examine(loaded: &Loaded, extent: Extent, faults: &mut Diagnostics) -> (Option<Built>, Option<Motion>) {
     let built = Arm::from_spec(loaded, faults);
-    let motion = check(loaded, built.as_ref().map(|b| &b.arm), faults);
+    let arm = built.as_ref().map(|b| &b.arm);
+    let motion = check(loaded, arm, faults);
+    if let Some(control) = loaded.spec.control.as_ref().filter(|_| extent == Extent::Whole) {
+        let joints = joints(&loaded.spec, arm);
+        control::check(control, joints, faults);
+        gain_request::check(control, &loaded.spec, joints, faults);
+    }
     (built, motion)
 }
 
@@ -106,7 +109,7 @@ fn joints(spec: &Spec, arm: Option<&Arm>) -> Option<usize> {
 ///
 /// Without an arm (because it is at fault) the number of joints is taken from the DH table, and what needs to know
 /// more is passed over.
-fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Faults) -> Option<Motion> {
+fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Diagnostics) -> Option<Motion> {
     let spec = &loaded.spec;
     let joints = joints(spec, arm);
     name::check(&spec.name, faults);
@@ -118,8 +121,8 @@ fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Faults) -> Option<Moti
             faults.push("model.separate.functions", "is 0", "write a whole number of at least 1");
         }
         ModelSpec::Tolerance { torque } if !(*torque > 0.0 && *torque < 1.0) => {
-            let mend = "write a fraction of the peak torque above 0 and below 1, such as 0.01";
-            faults.push("model.tolerance.torque", format!("is {torque}"), mend);
+            let help = "write a fraction of the peak torque above 0 and below 1, such as 0.01";
+            faults.push("model.tolerance.torque", format!("is {torque}"), help);
         }
         ModelSpec::Shared { .. }
         | ModelSpec::Separate { .. }
@@ -128,13 +131,13 @@ fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Faults) -> Option<Moti
         | ModelSpec::Exact => {}
     }
     let motion = spec.motion.as_ref().and_then(|motion| motion::check(motion, loaded, arm, joints, faults));
-    measure::check(spec, arm, joints, faults);
+    domain::check(spec, arm, joints, faults);
     if let TrigSpec::Table { error } = spec.emit.trig
         && !(FINEST..=COARSEST).contains(&error)
     {
-        let mend =
+        let help =
             format!("write a number from {FINEST:e} to {COARSEST}, or \"polynomial\" in place of the table");
-        faults.push("emit.trig.table.error", format!("is {error}"), mend);
+        faults.push("emit.trig.table.error", format!("is {error}"), help);
     }
     going_together(spec, faults);
     if let Some(duration) = spec.simulation.duration.filter(|v| *v <= 0.0) {
@@ -151,7 +154,7 @@ const MODEL: &str = "write `model` as {\"shared\": {\"functions\": N}} or \"exac
 const HARMONIC: &str = "leave out `dictionary`";
 
 /// What goes with certain models alone.
-fn going_together(spec: &Spec, faults: &mut Faults) {
+fn going_together(spec: &Spec, faults: &mut Diagnostics) {
     let chosen = spec.model.tolerance().is_some();
     let products = spec.dictionary != DictionarySpec::Harmonic && !chosen && spec.model != ModelSpec::Exact;
     let apart = matches!(spec.model, ModelSpec::Separate { .. });

@@ -1,11 +1,12 @@
 //! Motions: as many numbers as joints, times that run forwards, positions within limits.
 
-use super::shape::{has, length};
+use super::shape::length;
 use crate::arm::Arm;
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::load::Loaded;
 use crate::motion::{Motion, check_limits};
 use crate::spec::MotionSpec;
+use crate::text::has;
 
 /// Most knots of a motion and most sinusoids of a joint: each stands in the module.
 const MOST_KNOTS: usize = 20_000;
@@ -18,7 +19,7 @@ pub(super) fn check(
     loaded: &Loaded,
     arm: Option<&Arm>,
     joints: Option<usize>,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) -> Option<Motion> {
     let before = faults.count();
     fields(spec, joints, faults);
@@ -33,7 +34,7 @@ pub(super) fn check(
 }
 
 /// Checks the fields; a CSV table is checked where it is read.
-fn fields(motion: &MotionSpec, joints: Option<usize>, faults: &mut Faults) {
+fn fields(motion: &MotionSpec, joints: Option<usize>, faults: &mut Diagnostics) {
     match motion {
         MotionSpec::Quintic { from, to, duration } => {
             length("motion.quintic.from", from.len(), joints, faults);
@@ -60,7 +61,7 @@ fn fields(motion: &MotionSpec, joints: Option<usize>, faults: &mut Faults) {
     }
 }
 
-fn waypoints(times: &[f64], positions: &[Vec<f64>], joints: Option<usize>, faults: &mut Faults) {
+fn waypoints(times: &[f64], positions: &[Vec<f64>], joints: Option<usize>, faults: &mut Diagnostics) {
     let field = "motion.waypoints.times";
     at_most(field, times.len(), MOST_KNOTS, faults);
     if times.len() < 2 {
@@ -90,13 +91,13 @@ fn waypoints(times: &[f64], positions: &[Vec<f64>], joints: Option<usize>, fault
     }
 }
 
-fn at_most(field: &str, found: usize, most: usize, faults: &mut Faults) {
+fn at_most(field: &str, found: usize, most: usize, faults: &mut Diagnostics) {
     if found > most {
         faults.push(field, has(found), format!("write at most {most}: each stands in the module"));
     }
 }
 
-fn positive(field: &str, value: f64, faults: &mut Faults) {
+fn positive(field: &str, value: f64, faults: &mut Diagnostics) {
     if value <= 0.0 {
         faults.push(field, format!("is {value}"), "write a number above 0, in s");
     }

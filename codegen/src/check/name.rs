@@ -1,6 +1,6 @@
 //! Names of specifications: each names a Rust module, a file and a type.
 
-use crate::error::Faults;
+use crate::error::Diagnostics;
 
 /// Words that cannot name a Rust module.
 const KEYWORDS: [&str; 51] = [
@@ -26,9 +26,9 @@ pub(crate) fn is_module_name(name: &str) -> bool {
 }
 
 /// Adds a fault where `name` cannot name a module.
-pub(super) fn check(name: &str, faults: &mut Faults) {
-    if let Some((problem, mend)) = refusal(name) {
-        faults.push("name", problem, mend);
+pub(super) fn check(name: &str, faults: &mut Diagnostics) {
+    if let Some((problem, help)) = refusal(name) {
+        faults.push("name", problem, help);
     }
 }
 
@@ -37,8 +37,8 @@ fn refusal(name: &str) -> Option<(String, &'static str)> {
     const OTHER: &str = "choose another name";
     let letters = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(letters) {
-        let mend = "write a lower-case letter, then lower-case letters, digits and underscores: it names a Rust module";
-        Some((format!("is {name:?}"), mend))
+        let help = "write a lower-case letter, then lower-case letters, digits and underscores: it names a Rust module";
+        Some((format!("is {name:?}"), help))
     } else if name.len() > LONGEST {
         Some((format!("has {} characters", name.len()), "write at most 200: it names a file"))
     } else if name.contains("__") {

@@ -1,40 +1,11 @@
-//! Scalars, lists and tables where a vector or a matrix is meant.
+//! Lists that need one entry for each joint.
 
-use crate::error::Faults;
-use crate::spec::{MatrixSpec, VectorSpec};
-
-/// One number for each of `n` joints: a scalar stands for all; `None` where a list has another length.
-pub fn vector(spec: &VectorSpec, n: usize) -> Option<Vec<f64>> {
-    match spec {
-        VectorSpec::Scalar(value) => Some(vec![*value; n]),
-        VectorSpec::List(list) => (list.len() == n).then(|| list.clone()),
-    }
-}
-
-/// The n×n matrix by rows: a scalar is a multiple of the identity, a list a diagonal; `None` where the size differs.
-pub fn matrix(spec: &MatrixSpec, n: usize) -> Option<Vec<Vec<f64>>> {
-    let diagonal = |entry: &dyn Fn(usize) -> f64| {
-        let row = |i: usize| (0..n).map(|j| if i == j { entry(i) } else { 0.0 }).collect();
-        (0..n).map(row).collect()
-    };
-    match spec {
-        MatrixSpec::Scalar(value) => Some(diagonal(&|_| *value)),
-        MatrixSpec::Diagonal(list) => {
-            (list.len() == n).then(|| diagonal(&|i| list.get(i).copied().unwrap_or(0.0)))
-        }
-        MatrixSpec::Full(rows) => {
-            (rows.len() == n && rows.iter().all(|row| row.len() == n)).then(|| rows.clone())
-        }
-    }
-}
-
-/// "has 1 entry", "has 2 entries".
-pub(crate) fn has(count: usize) -> String {
-    format!("has {count} {}", if count == 1 { "entry" } else { "entries" })
-}
+use crate::error::Diagnostics;
+use crate::spec::VectorSpec;
+use crate::text::has;
 
 /// A fault where a list has not one entry for each of `joints`; true where it has, or the number is unknown.
-pub(super) fn length(field: &str, found: usize, joints: Option<usize>, faults: &mut Faults) -> bool {
+pub(super) fn length(field: &str, found: usize, joints: Option<usize>, faults: &mut Diagnostics) -> bool {
     match joints {
         Some(n) if found != n => {
             faults.push(field, has(found), format!("write {n}, one for each joint"));
@@ -51,7 +22,7 @@ pub(super) fn entries(
     joints: Option<usize>,
     good: impl Fn(f64) -> bool,
     wanted: &str,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) {
     match spec {
         VectorSpec::Scalar(value) if !good(*value) => {

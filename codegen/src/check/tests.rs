@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::{from_loaded, matrix, prepare, vector};
+use super::{Extent, checked, prepare};
 use crate::load::parse;
 use crate::spec::{MatrixSpec, VectorSpec};
 
@@ -14,7 +14,7 @@ fn expect(edit: impl Fn(&mut Value), lines: &[&str]) {
         serde_json::from_str(include_str!("../../../generated/specs/arm3_xi2.json")).expect("JSON");
     edit(&mut value);
     let loaded = parse(&value.to_string(), Path::new("a.json")).unwrap_or_else(|e| panic!("{e}"));
-    let message = match from_loaded(loaded) {
+    let message = match checked(loaded, Extent::Whole) {
         Ok(_) => String::new(),
         Err(error) => {
             assert_eq!(error.exit_code(), 2);
@@ -207,10 +207,10 @@ fn faults_of_arm_and_values_come_together() {
 
 #[test]
 fn scalars_lists_and_tables_take_their_shape() {
-    assert_eq!(vector(&VectorSpec::Scalar(2.0), 2), Some(vec![2.0, 2.0]));
-    assert_eq!(vector(&VectorSpec::List(vec![1.0]), 2), None);
+    assert_eq!(VectorSpec::Scalar(2.0).by_joint(2), Some(vec![2.0, 2.0]));
+    assert_eq!(VectorSpec::List(vec![1.0]).by_joint(2), None);
     let diagonal = Some(vec![vec![1.0, 0.0], vec![0.0, 2.0]]);
-    assert_eq!(matrix(&MatrixSpec::Diagonal(vec![1.0, 2.0]), 2), diagonal);
-    assert_eq!(matrix(&MatrixSpec::Scalar(3.0), 1), Some(vec![vec![3.0]]));
-    assert_eq!(matrix(&MatrixSpec::Full(vec![vec![1.0, 2.0]]), 2), None);
+    assert_eq!(MatrixSpec::Diagonal(vec![1.0, 2.0]).by_rows(2), diagonal);
+    assert_eq!(MatrixSpec::Scalar(3.0).by_rows(1), Some(vec![vec![3.0]]));
+    assert_eq!(MatrixSpec::Full(vec![vec![1.0, 2.0]]).by_rows(2), None);
 }

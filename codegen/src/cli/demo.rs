@@ -30,24 +30,27 @@ pub(super) fn run() -> Result<String, Error> {
         let (without, with) = (simulate(&Scenario::of(&sign)?)?, simulate(&Scenario::of(&layer)?)?);
         Ok::<_, Error>((sign, without, with))
     })?;
-    let joints = &sign.arm.joints;
+    let joints = &sign.arm().joints;
 
     let module = folder.join("arm3.rs");
     let picture = folder.join("arm3.svg");
     write_all(&[(&module, &sign.module()?), (&picture, &plot(&with, joints)?)])?;
 
     let selected: Vec<String> =
-        sign.reduced.selected.iter().map(|&l| sign.lagrangian.functions[l].to_string()).collect();
+        sign.reduced().selected.iter().map(|&l| sign.lagrangian().functions[l].to_string()).collect();
     let mut out = format!(
         "The three-link arm of TR-EE 92-21, reduced to {} of its {} functions: {}\n\n",
         selected.len(),
-        sign.lagrangian.functions.len(),
+        sign.lagrangian().functions.len(),
         selected.join(", ")
     );
-    let operations = [("exact", sign.exact_code.operations()), ("reduced", sign.code.operations())];
+    let operations = [("exact", sign.exact_code().operations()), ("reduced", sign.code().operations())];
     let sections = [
         ("Operations of one passivity torque D a_r + C v_r + G", operations_table(&operations)),
-        ("Bounds on what the reduced model leaves out (certified over the tube)", bounds_table(&sign.bounds)),
+        (
+            "Bounds on what the reduced model leaves out (certified over the tube)",
+            bounds_table(sign.bounds()),
+        ),
         ("Law (34) with the sign function against law (16)", metrics_table(&without, joints)),
         ("Law (34) with a boundary layer of 0.05 rad/s against law (16)", metrics_table(&with, joints)),
         ("The report's claims", claims_table(&claims(&without, &with))),

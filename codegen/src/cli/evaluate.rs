@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 use super::progress::modelled;
 use super::{json, show_warnings};
 use crate::arm::Arm;
-use crate::body::matrices;
-use crate::error::{Error, Faults};
+use crate::error::{Diagnostics, Error};
 use crate::graph::Graph;
 use crate::pipeline::Generation;
+use crate::torque::matrices;
 
 /// Evaluates the model at states from a file.
 #[derive(Debug, Args)]
@@ -68,11 +68,11 @@ impl Evaluation {
 impl Evaluate {
     pub(super) fn run(&self) -> Result<String, Error> {
         let generation = modelled(&self.spec)?;
-        show_warnings(&generation.warnings);
-        let states = read(&self.states, generation.arm.dof())?;
+        show_warnings(generation.warnings());
+        let states = read(&self.states, generation.arm().dof())?;
         let evaluations: Vec<Evaluation> =
             states.iter().map(|state| self.evaluate(&generation, state)).collect();
-        let mut faults = Faults::of(&self.states);
+        let mut faults = Diagnostics::of(&self.states);
         for (index, _) in evaluations.iter().enumerate().filter(|(_, e)| !e.is_finite()) {
             faults.push(
                 format!("[{index}]"),
@@ -86,10 +86,10 @@ impl Evaluate {
 
     fn evaluate(&self, generation: &Generation, state: &State) -> Evaluation {
         let code = match self.model {
-            Which::Exact => &generation.exact_code,
-            Which::Reduced => &generation.code,
+            Which::Exact => generation.exact_code(),
+            Which::Reduced => generation.code(),
         };
-        evaluation(&generation.arm, code, state, self.friction)
+        evaluation(generation.arm(), code, state, self.friction)
     }
 }
 
@@ -120,7 +120,7 @@ fn read(path: &Path, dof: usize) -> Result<Vec<State>, Error> {
         .map_err(|error| Error::input(path, "", format!("cannot be read ({error})"), wanted))?;
     let mut states: Vec<State> = serde_json::from_str(&text)
         .map_err(|error| Error::input(path, "", format!("is not a list of states ({error})"), wanted))?;
-    let mut faults = Faults::of(path);
+    let mut faults = Diagnostics::of(path);
     for (index, state) in states.iter_mut().enumerate() {
         for (name, list) in [("q", &mut state.q), ("qd", &mut state.qd), ("qdd", &mut state.qdd)] {
             // Velocities and accelerations left out are zero.

@@ -50,7 +50,7 @@ impl Generate {
     pub(super) fn run(&self) -> Result<String, Error> {
         let outputs = self.outputs()?;
         for output in &outputs {
-            show_warnings(&output.generation.warnings);
+            show_warnings(output.generation.warnings());
         }
         if self.json {
             return json(&outputs.iter().map(written).collect::<Vec<_>>());
@@ -72,7 +72,7 @@ impl Generate {
             (false, false) => "unchanged",
         };
         let cost = |o: &Operations| format!("{} mul, {} add, {} sin-cos pairs", o.mul, o.add, o.trig_pairs);
-        let torque = output.generation.torque.as_ref();
+        let torque = output.generation.torque();
         let error = torque.map_or(String::new(), |torque| format!(" {}", torque_in_words(torque)));
         format!(
             "{}: {state}, {} bytes, {}; exact {}; {}{error}\n",
@@ -87,18 +87,18 @@ impl Generate {
 
 fn written(output: &Output) -> Written<'_> {
     let generation = &output.generation;
-    let (operations, exact) = (generation.code.operations(), generation.exact_code.operations());
-    let torque = generation.torque.as_ref();
+    let (operations, exact) = (generation.code().operations(), generation.exact_code().operations());
+    let torque = generation.torque();
     Written {
         verdict: generation.verdict(),
         torque_error: torque.map(|torque| torque.error.as_slice()),
         peak_torque: torque.map(|torque| torque.peak.as_slice()),
         path: output.path.display().to_string(),
         written: output.written,
-        form: output.generation.form.name(),
+        form: output.generation.form().name(),
         bytes: output.text.len(),
         operations,
         exact_operations: exact,
-        warnings: &output.generation.warnings,
+        warnings: output.generation.warnings(),
     }
 }

@@ -43,7 +43,7 @@ struct Inspection<'a> {
     selected: Vec<String>,
     /// Inertial parameters left out, where the model is the exact one of a simpler arm.
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    dropped: &'a [String],
+    simplified_arm: &'a [String],
     bounds: BoundsView<'a>,
     /// Certified bound on the torque error by joint, N·m or N, for rates up to the motion's own, over a workspace
     /// up to the joints' limits.
@@ -183,7 +183,7 @@ impl Inspect {
         let effort = Effort { seek_tube: true, ..Effort::default() };
         let loaded = read(&self.spec)?;
         let generation = watched(|progress| Generation::with_progress(loaded, &effort, progress))?;
-        show_warnings(&generation.warnings);
+        show_warnings(generation.warnings());
         let size = generation.module()?.len();
         let view = watched(|progress| {
             let _stage = Stage::new(progress, "comparison of bounds", 1);

@@ -43,7 +43,7 @@ pub(super) fn generated(path: &Path) -> Result<Generation, Error> {
 /// As [`Generation::model`].
 pub(super) fn modelled(path: &Path) -> Result<Generation, Error> {
     let loaded = read(path)?;
-    watched(|progress| Generation::model(loaded, &Effort::default(), progress))
+    watched(|progress| Generation::model_only(loaded, &Effort::default(), progress))
 }
 
 /// The stage under way in a line of its own on standard error, from one second on until this is dropped; nothing where

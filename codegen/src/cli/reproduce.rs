@@ -32,11 +32,11 @@ struct Summary<'a> {
 impl Reproduce {
     pub(super) fn run(&self) -> Result<String, Error> {
         let cases = watched(run)?;
-        let motion = cases.nominal.motion.as_ref();
+        let motion = cases.nominal.motion();
         let motion =
             motion.ok_or_else(|| Error::Internal("the built-in example has no motion".to_string()))?;
         let mut files = figures(&Figures {
-            joints: &cases.nominal.arm.joints,
+            joints: &cases.nominal.arm().joints,
             motion,
             exact: &cases.simplified.exact,
             simplified: &cases.simplified.law,

@@ -38,13 +38,13 @@ struct Summary<'a> {
 impl Simulate {
     pub(super) fn run(&self) -> Result<String, Error> {
         let generation = generated(&self.spec)?;
-        show_warnings(&generation.warnings);
+        show_warnings(generation.warnings());
         let scenario = Scenario::of(&generation)?;
         let comparison = watched(|progress| {
             let _stage = Stage::new(progress, "simulation", 1);
             simulate(&scenario)
         })?;
-        let joints = &generation.arm.joints;
+        let joints = &generation.arm().joints;
         if let Some(path) = &self.plot {
             write_if_changed(path, &plot(&comparison, joints)?)?;
         }

@@ -42,7 +42,7 @@ fn watch(config: &Config, loaded: &[Result<Loaded, Error>], out: &mut impl Write
 fn conclude(result: Result<Vec<Output>, Error>, out: &mut impl Write) -> io::Result<()> {
     match result {
         Ok(outputs) => {
-            for warning in outputs.iter().flat_map(|output| &output.generation.warnings) {
+            for warning in outputs.iter().flat_map(|output| output.generation.warnings()) {
                 directive(out, "cargo:warning=", warning)?;
             }
         }

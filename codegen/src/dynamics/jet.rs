@@ -5,7 +5,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 use super::recursion::Position;
 use super::scalar::Scalar;
 use crate::arm::{Arm, JointKind};
-use crate::interval::Interval;
+use crate::numerics::Interval;
 
 /// A value and its derivative by one variable: forward differentiation in the ring `S`.
 #[derive(Clone, Copy, Debug, PartialEq)]

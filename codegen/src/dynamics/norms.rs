@@ -59,8 +59,8 @@ struct Link {
 }
 
 impl Link {
-    /// Where |q| ≤ `reach`, m, for a prismatic joint.
-    fn new(joint: &Joint, reach: f64) -> Self {
+    /// Where |q| ≤ `position_bound`, m, for a prismatic joint.
+    fn new(joint: &Joint, position_bound: f64) -> Self {
         let fixed = norm(&joint.pose.translation);
         let body = &joint.body;
         Self {
@@ -68,7 +68,7 @@ impl Link {
             turn: Size::fixed(1.0),
             origin: Size::fixed(match joint.kind {
                 JointKind::Revolute => fixed,
-                JointKind::Prismatic => fixed + reach,
+                JointKind::Prismatic => fixed + position_bound,
             }),
             mass: Size::fixed(body.mass.abs()),
             first: Size::fixed(norm(&body.first_moment)),
@@ -78,15 +78,15 @@ impl Link {
     }
 
     /// The same, with what `other` differs by as the change.
-    fn beside(joint: &Joint, other: &Joint, reach: f64) -> Self {
-        let mut out = Self::new(joint, reach);
+    fn beside(joint: &Joint, other: &Joint, position_bound: f64) -> Self {
+        let mut out = Self::new(joint, position_bound);
         let (a, b) = (&joint.body, &other.body);
         let apart = |a: &[f64], b: &[f64]| norm(&a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>());
         // A rotation that is off by an angle moves no unit vector by more.
         out.turn.change = UP * distance(&joint.pose.rotation, &other.pose.rotation);
         out.origin.change = apart(&joint.pose.translation, &other.pose.translation);
         if joint.kind == JointKind::Prismatic {
-            out.origin.change += reach * out.turn.change;
+            out.origin.change += position_bound * out.turn.change;
         }
         out.mass.change = (a.mass - b.mass).abs();
         out.first.change = apart(&a.first_moment, &b.first_moment);
@@ -112,20 +112,20 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// Of `arm`, where |q_j| ≤ `reach`, m, for prismatic joints.
-    pub fn new(arm: &Arm, reach: &[f64]) -> Self {
-        Self::within(arm, &moving_reach(arm, reach))
+    /// Of `arm`, where |q_j| ≤ `position_bound`, m, for prismatic joints.
+    pub fn new(arm: &Arm, position_bound: &[f64]) -> Self {
+        Self::within(arm, &moving_reach(arm, position_bound))
     }
 
-    /// The same, where `reach` bounds the positions of all joints that move.
-    pub fn within(arm: &Arm, reach: &[f64]) -> Self {
-        Self::of(&links(arm, reach), norm(&arm.gravity)).gathered(arm)
+    /// The same, where `position_bound` bounds the positions of all joints that move.
+    pub fn within(arm: &Arm, position_bound: &[f64]) -> Self {
+        Self::of(&links(arm, position_bound), norm(&arm.gravity)).gathered(arm)
     }
 
     /// The same, where every joint's sine and cosine are off by `sine`: in the plane that it turns, its rotation times a
     /// number of modulus below √2 `sine` is added.
-    pub fn with_sines(arm: &Arm, reach: &[f64], sine: f64) -> Self {
-        let mut links = links(arm, &moving_reach(arm, reach));
+    pub fn with_sines(arm: &Arm, position_bound: &[f64], sine: f64) -> Self {
+        let mut links = links(arm, &moving_reach(arm, position_bound));
         let couplings = arm.linkage.iter().flat_map(|linkage| &linkage.couplings);
         let parts = f64::from(arm.parts().into_iter().max().unwrap_or(1));
         let most = couplings.map(|c| c.multiplier.abs() * parts + 1.0).fold(1.0, f64::max);
@@ -141,11 +141,11 @@ impl Sizes {
     }
 
     /// The same, with what `other` differs by, an arm with the same joints.
-    pub fn beside(arm: &Arm, other: &Arm, reach: &[f64]) -> Self {
-        let reach = moving_reach(arm, reach);
+    pub fn beside(arm: &Arm, other: &Arm, position_bound: &[f64]) -> Self {
+        let position_bound = moving_reach(arm, position_bound);
         let joints = arm.moving().iter().zip(other.moving()).enumerate();
         let links: Vec<Link> =
-            joints.map(|(j, (joint, other))| Link::beside(joint, other, at(&reach, j))).collect();
+            joints.map(|(j, (joint, other))| Link::beside(joint, other, at(&position_bound, j))).collect();
         Self::of(&links, norm(&arm.gravity)).gathered(arm)
     }
 
@@ -207,16 +207,18 @@ impl Sizes {
 }
 
 /// Bounds on the positions of the joints that move, from those of the coordinates.
-fn moving_reach(arm: &Arm, reach: &[f64]) -> Vec<f64> {
-    arm.linkage.as_ref().map_or_else(|| reach.to_vec(), |linkage| linkage.reach(reach))
+fn moving_reach(arm: &Arm, position_bound: &[f64]) -> Vec<f64> {
+    arm.linkage
+        .as_ref()
+        .map_or_else(|| position_bound.to_vec(), |linkage| linkage.position_bound(position_bound))
 }
 
-fn links(arm: &Arm, reach: &[f64]) -> Vec<Link> {
-    arm.moving().iter().enumerate().map(|(j, joint)| Link::new(joint, at(reach, j))).collect()
+fn links(arm: &Arm, position_bound: &[f64]) -> Vec<Link> {
+    arm.moving().iter().enumerate().map(|(j, joint)| Link::new(joint, at(position_bound, j))).collect()
 }
 
-fn at(reach: &[f64], joint: usize) -> f64 {
-    reach.get(joint).copied().unwrap_or_default()
+fn at(position_bound: &[f64], joint: usize) -> f64 {
+    position_bound.get(joint).copied().unwrap_or_default()
 }
 
 /// By joint, a bound on |τ_i| for gravity and rates of the given magnitudes.

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use crate::interval::Interval;
+use crate::numerics::Interval;
 
 /// A commutative ring with f64 constants: f64 itself, a node of an expression graph, or an enclosure.
 pub trait Scalar:

@@ -11,9 +11,9 @@ use crate::error::Error;
 
 pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
     let n = count(module.arm.dof());
-    let psi = functions(module.lagrangian, module.reduced);
+    let psi = functions(module.lagrangian, &module.model.reduced);
     let xi = count(psi.len());
-    let operations = module.code.operations();
+    let operations = module.model.code.operations();
     let (unused, constant) = (unused(), constant());
     let counts = [
         ("MULTIPLICATIONS", operations.mul, " Multiplications in one passivity torque."),

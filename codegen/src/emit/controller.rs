@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::literal::{count, float, matrix, vector};
 use super::{Module, constant, docs, spaced, unused};
-use crate::design::{Adaptation, Design};
+use crate::control::{Adaptation, Design};
 use crate::error::Error;
 use crate::motion::Motion;
 use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec};

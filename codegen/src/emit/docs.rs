@@ -2,12 +2,12 @@
 
 use super::Module;
 use crate::bounds::{Met, Torque, percent_up, printed_down, printed_up};
-use crate::design::Guarantee;
+use crate::control::Guarantee;
+use crate::domain::Domain;
 use crate::lagrangian::{Coordinates, Lagrangian};
-use crate::measure::Domain;
 use crate::reduction::Reduced;
-use crate::sines::{Kind, Sines};
 use crate::text::escaped;
+use crate::trig::{Kind, Trig};
 
 /// Comments above a body of `size` bytes. Without time, path or machine, so that the same specification gives the same
 /// bytes.
@@ -23,25 +23,29 @@ pub(super) fn header(module: &Module, size: usize) -> String {
 
 /// Documentation of the model type, a line each.
 pub(super) fn model(module: &Module) -> Vec<String> {
-    let operations = module.code.operations();
+    let operations = module.model.code.operations();
     let exact = module.exact_code.operations();
     let n = module.arm.dof();
     let p = module.lagrangian.functions.len();
     let mut lines = Vec::new();
-    let kept = functions(module.lagrangian, module.reduced);
-    if module.reduced.is_exact() {
-        lines.push(format!(" Exact model of `{}`, {n} joints, in {} form.", module.name, module.form.name()));
+    let kept = functions(module.lagrangian, &module.model.reduced);
+    if module.model.reduced.is_exact() {
+        lines.push(format!(
+            " Exact model of `{}`, {n} joints, in {} form.",
+            module.name,
+            module.model.form.name()
+        ));
     } else {
         let (name, count) = (module.name, kept.len());
-        lines.push(if let Some(dropped) = &module.reduced.dropped {
+        lines.push(if let Some(simplified_arm) = module.model.reduced.simplified_arm() {
             format!(
                 " Reduced model of `{name}`, {n} joints, in {} form: the exact one of an arm that need not be a real one, whose \
                  base parameters (inertia gathered on as few links as possible) are those of this one fitted anew, without \
                  {} (mx: mass times x of its centre; Σ: ∫ x xᵀ dm).",
-                module.form.name(),
-                dropped.lost()
+                module.model.form.name(),
+                simplified_arm.lost()
             )
-        } else if module.reduced.sparse.is_some() {
+        } else if module.model.reduced.sparse().is_some() {
             format!(
                 " Reduced model of `{name}`, {n} joints: {count} functions, products counted, where the exact model has {p} ψ."
             )
@@ -60,7 +64,7 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     if !kept.is_empty() {
         lines.push(String::new());
     }
-    if let Some(absolute) = module.reduced.sparse.as_ref().and_then(|model| model.absolute.as_ref()) {
+    if let Some(absolute) = module.model.reduced.sparse().and_then(|model| model.absolute.as_ref()) {
         lines.extend([angles(&absolute.coordinates), String::new()]);
     }
     let cost = |o: &crate::graph::Operations| {
@@ -68,11 +72,11 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     };
     lines.push(format!(" One passivity torque: {}.", cost(&operations)));
     lines.push(String::new());
-    let sines = &module.code.sines;
+    let sines = &module.model.code.sines;
     if let Some(line) = taken(sines) {
         lines.extend([line, String::new()]);
     }
-    lines.push(if module.reduced.is_exact() {
+    lines.push(if module.model.reduced.is_exact() {
         format!(" Verdict: {}", module.verdict)
     } else {
         format!(" The exact model costs {}: {}", cost(&exact), module.verdict)
@@ -82,7 +86,7 @@ pub(super) fn model(module: &Module) -> Vec<String> {
         lines.extend([format!(" {} {}", torque(known), rates(known)), String::new()]);
         lines.extend([format!(" {}", met(module.met, module.design.is_some())), String::new()]);
     }
-    if !module.reduced.is_exact() {
+    if !module.model.reduced.is_exact() {
         lines.push(format!(
             " Domain of the bounds: {}. They are certified, rounding in f64 included; {}{}.",
             domain(module.domain),
@@ -177,7 +181,7 @@ fn uncertain(module: &Module) -> Vec<String> {
 }
 
 /// How sines are taken, where it is not the default.
-fn taken(sines: &Sines) -> Option<String> {
+fn taken(sines: &Trig) -> Option<String> {
     let way = match sines.kind {
         Kind::Libm => return None,
         Kind::Polynomial => "the runtime's polynomials".to_string(),
@@ -216,7 +220,7 @@ pub(super) fn guaranteed(guarantee: &Guarantee) -> Vec<String> {
 
 /// The functions that a reduced model keeps, as formulas; none for the exact one.
 pub(crate) fn functions(lagrangian: &Lagrangian, reduced: &Reduced) -> Vec<String> {
-    match &reduced.sparse {
+    match reduced.sparse() {
         Some(model) => model.functions.iter().map(|psi| psi.formula(lagrangian)).collect(),
         None => reduced.selected.iter().map(|&l| lagrangian.functions[l].to_string()).collect(),
     }
@@ -277,8 +281,8 @@ pub(crate) fn torque(torque: &Torque) -> String {
 pub(crate) fn domain(domain: &Domain) -> String {
     let list = |x: &[f64]| x.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
     match domain {
-        Domain::Trajectory => "the desired trajectory itself".to_string(),
-        Domain::Tube(errors) => format!("|q − q_d(t)| ≤ ({}) around the desired trajectory", list(errors)),
+        Domain::Path(_) => "the desired trajectory itself".to_string(),
+        Domain::Tube(_, errors) => format!("|q − q_d(t)| ≤ ({}) around the desired trajectory", list(errors)),
         Domain::Workspace(limits) => {
             let sides: Vec<String> = limits.iter().map(|[low, high]| format!("[{low}, {high}]")).collect();
             format!("the joint box {}", sides.join(" × "))

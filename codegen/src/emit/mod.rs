@@ -5,8 +5,8 @@ mod controller;
 mod docs;
 mod literal;
 mod regression;
-mod sines;
 mod statements;
+mod trig;
 mod type_name;
 
 pub use type_name::type_name;
@@ -20,15 +20,15 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
 use crate::arm::{Arm, Uncertainty};
-use crate::body::{Form, Regressor};
 use crate::bounds::{Bounds, Met, Torque};
-use crate::design::Design;
+use crate::control::Design;
+use crate::domain::Domain;
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::lagrangian::Lagrangian;
-use crate::measure::Domain;
+use crate::model::Model;
 use crate::motion::Motion;
-use crate::reduction::Reduced;
+use crate::torque::Regressor;
 
 /// What a module is made from.
 #[derive(Clone, Copy, Debug)]
@@ -45,8 +45,8 @@ pub struct Module<'a> {
     pub uncertainty: &'a Uncertainty,
     /// The exact model.
     pub lagrangian: &'a Lagrangian,
-    /// The model that is emitted.
-    pub reduced: &'a Reduced,
+    /// The model that is emitted, with its code.
+    pub model: &'a Model,
     /// What it leaves out.
     pub bounds: &'a Bounds,
     /// What that costs in torque, where the rates are known.
@@ -57,10 +57,6 @@ pub struct Module<'a> {
     pub verdict: &'a str,
     /// Where the bounds hold.
     pub domain: &'a Domain,
-    /// How the torque is computed.
-    pub form: Form,
-    /// The torque.
-    pub code: &'a Graph,
     /// The torque as a function of what the law learns.
     pub regressor: Option<&'a Regressor>,
     /// The cheapest exact torque, for comparison.
@@ -83,11 +79,11 @@ pub fn emit(module: &Module) -> Result<String, Error> {
     let docs = docs::model(module);
     let constants = constants::constants(module)?;
     let controller = controller::controller(module, &model)?;
-    let parameters = statements::parameters(module.code, module.arm.dof());
+    let parameters = statements::parameters(&module.model.code, module.arm.dof());
     let regression = regression::regression(module, &model)?;
     let learnt = regression::constants(module)?;
-    let body = statements::body(module.code)?;
-    let table = sines::table(&module.code.sines)?;
+    let body = statements::body(&module.model.code)?;
+    let table = trig::table(&module.model.code.sines)?;
     let (unused, plain) = (unused(), plain_numbers());
     let tokens = quote! {
         #(#[doc = #docs])*

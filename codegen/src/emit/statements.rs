@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{literal, sines, spaced};
+use super::{literal, spaced, trig};
 use crate::error::Error;
 use crate::graph::{Graph, Node, NodeId, Variable};
 
@@ -113,7 +113,7 @@ fn trigonometry(graph: &Graph, names: &mut Names) -> Result<Vec<TokenStream>, Er
                 }
                 _ => quote!(q[#j]),
             };
-            let call = sines::call(&graph.sines, angle);
+            let call = trig::call(&graph.sines, angle);
             Ok(quote!(let (#sin, #cos) = #call;))
         })
         .collect()

@@ -9,7 +9,7 @@ use super::node::{Name, Node, NodeId, Variable};
 use super::{Graph, Operations};
 use crate::dynamics::Scalar;
 use crate::lagrangian::{MAX_JOINTS, WHOLE};
-use crate::sines::Sines;
+use crate::trig::Trig;
 
 /// Collects the nodes of a graph under construction.
 #[derive(Debug, Default)]
@@ -112,7 +112,7 @@ impl Builder {
             nodes: Vec::new(),
             names: Vec::new(),
             outputs: Vec::new(),
-            sines: Sines::default(),
+            sines: Trig::default(),
             parts: parts.unwrap_or(WHOLE),
         };
         for (id, (node, name)) in nodes.into_iter().zip(names).enumerate() {
@@ -142,32 +142,23 @@ impl Builder {
 
     /// What [`Graph::operations`] of the finished graph of `outputs` would be; `None` where it would not be finite.
     pub(crate) fn operations(&self, outputs: impl Iterator<Item = NodeId>) -> Option<Operations> {
-        let State { nodes, seen, .. } = &mut *self.state.borrow_mut();
+        let State { nodes, seen, parts, .. } = &mut *self.state.borrow_mut();
         seen.clear();
         seen.resize(nodes.len(), false);
-        let mut open: Vec<NodeId> = Vec::with_capacity(nodes.len());
-        let mut visit = |id: NodeId, open: &mut Vec<NodeId>| {
+        let mut needed: Vec<NodeId> = Vec::with_capacity(nodes.len());
+        let mut need = |id: NodeId, needed: &mut Vec<NodeId>| {
             if !std::mem::replace(&mut seen[id], true) {
-                open.push(id);
+                needed.push(id);
             }
         };
-        outputs.for_each(|id| visit(id, &mut open));
-        let mut count = Operations::default();
-        let mut turned = [false; MAX_JOINTS];
-        let mut finite = true;
-        while let Some(id) = open.pop() {
-            let node = &nodes[id];
-            match *node {
-                Node::Mul(..) => count.mul += 1,
-                Node::Add(..) | Node::Sub(..) | Node::Neg(_) => count.add += 1,
-                Node::Sin(joint) | Node::Cos(joint) => turned[joint] = true,
-                Node::Constant(bits) => finite &= f64::from_bits(bits).is_finite(),
-                Node::Input(_) => {}
-            }
-            node.operands().for_each(|operand| visit(operand, &mut open));
+        outputs.for_each(|id| need(id, &mut needed));
+        let mut next = 0;
+        while let Some(&id) = needed.get(next) {
+            nodes[id].operands().for_each(|operand| need(operand, &mut needed));
+            next += 1;
         }
-        count.trig_pairs = turned.iter().filter(|&&turned| turned).count();
-        finite.then_some(count)
+        let all = || needed.iter().map(|&id| &nodes[id]);
+        all().all(Node::is_finite).then(|| Operations::of(all(), &parts.unwrap_or(WHOLE)))
     }
 
     fn intern(&self, node: Node) -> Expr<'_> {

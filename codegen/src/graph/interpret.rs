@@ -1,7 +1,7 @@
 //! Running a graph without compiling it, with the same bits as the generated code.
 
 use super::{Graph, Node, Variable};
-use crate::sines::Angle;
+use crate::trig::Angle;
 
 impl Graph {
     /// Sine and cosine of each joint's angle, or of the part of it that the graph takes them of.

@@ -15,7 +15,7 @@ pub use count::{Operations, TRIG_PAIR};
 pub use node::{Name, Node, NodeId, Variable};
 
 use crate::lagrangian::MAX_JOINTS;
-use crate::sines::Sines;
+use crate::trig::Trig;
 
 /// A finished graph.
 ///
@@ -31,7 +31,7 @@ pub struct Graph {
     /// The results, in the order the caller gave them.
     pub outputs: Vec<NodeId>,
     /// How sines and cosines are taken; the builder leaves the default.
-    pub sines: Sines,
+    pub sines: Trig,
     /// By joint the power of 2 by which its angle is divided before its sine and cosine are taken; mostly 1.
     pub parts: [u8; MAX_JOINTS],
 }

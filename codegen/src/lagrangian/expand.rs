@@ -11,7 +11,7 @@ use super::transform::{Axis, grid_point, grid_size, transform};
 use super::{Combination, Lagrangian};
 use crate::arm::{Arm, Body, JointKind, Uncertainty};
 use crate::dynamics::{Size, Sizes, gravity, mass_matrix, rounding};
-use crate::spread::Spread;
+use crate::numerics::low_discrepancy::LowDiscrepancy;
 
 /// Positions at which the rounding of the samples is looked at.
 const LOOKED_AT: usize = 48;
@@ -156,7 +156,7 @@ fn expanded(arm: &Arm, table: &Table) -> Vec<(Combination, Accuracy)> {
 /// The most that entries of D and G were found to round by.
 fn noise(arm: &Arm) -> (Vec<Vec<f64>>, Vec<f64>) {
     let n = arm.dof();
-    let spread = Spread::new(n);
+    let spread = LowDiscrepancy::new(n);
     let at = |index: usize| {
         let angle = |u: f64| std::f64::consts::PI * (2.0 * u - 1.0);
         let kinds = arm.moving().iter().map(|joint| joint.kind);

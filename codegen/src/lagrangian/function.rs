@@ -233,11 +233,11 @@ impl fmt::Display for Function {
 #[cfg(test)]
 mod tests {
     use super::{Function, MAX_JOINTS};
-    use crate::spread::Spread;
+    use crate::numerics::low_discrepancy::LowDiscrepancy;
 
     #[test]
     fn both_together_are_each_alone_to_the_last_bit() {
-        let spread = Spread::new(2);
+        let spread = LowDiscrepancy::new(2);
         let tiny = (0..120).flat_map(|e| [1.0, -1.0, 1.37].map(|x| libm::ldexp(x, -e)));
         let wide = (0..200_000).map(|index| 60.0 * (spread.point(index)[0] - 0.5));
         let mut cosine = Function::ONE;

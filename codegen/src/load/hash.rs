@@ -6,7 +6,7 @@ use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use super::Loaded;
-use crate::error::{Error, Faults};
+use crate::error::{Diagnostics, Error};
 
 /// SHA-256, in hexadecimal, of the specification and the files that it names.
 ///
@@ -22,7 +22,7 @@ pub fn spec_hash(loaded: &Loaded) -> Result<String, Error> {
     canonical(&value, &mut text);
     let mut hasher = Sha256::new();
     hasher.update(text.as_bytes());
-    let mut faults = Faults::of(&loaded.path);
+    let mut faults = Diagnostics::of(&loaded.path);
     for named in &loaded.named {
         match &named.content {
             Ok(bytes) => {

@@ -6,10 +6,10 @@ use serde::de::{DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Number, Value};
 
 use super::wording::{entry, member};
-use crate::error::Faults;
+use crate::error::Diagnostics;
 
 /// The value that `text` stands for; `None` after a syntax fault. Repeated keys are faults too, the last one stands.
-pub(super) fn read(text: &str, faults: &mut Faults) -> Option<Value> {
+pub(super) fn read(text: &str, faults: &mut Diagnostics) -> Option<Value> {
     let text = text.trim_start_matches('\u{feff}');
     let mut repeated = Vec::new();
     let mut reader = serde_json::Deserializer::from_str(text);
@@ -21,8 +21,8 @@ pub(super) fn read(text: &str, faults: &mut Faults) -> Option<Value> {
     match result {
         Ok(value) => Some(value),
         Err(error) => {
-            let (problem, mend) = syntax(&error);
-            faults.push("", problem, mend);
+            let (problem, help) = syntax(&error);
+            faults.push("", problem, help);
             None
         }
     }
@@ -49,14 +49,14 @@ fn syntax(error: &serde_json::Error) -> (String, &'static str) {
     let place = format!(" at line {} column {}", error.line(), error.column());
     let whole = error.to_string();
     let what = whole.strip_suffix(&place).unwrap_or(&whole);
-    let mend = if what == "number out of range" {
+    let help = if what == "number out of range" {
         "write a finite number, below 1.8e308 in magnitude"
     } else if error.is_eof() {
         "complete the file: a quote, bracket or brace is not closed"
     } else {
         "mend the JSON there: double quotes around names, commas between entries, no comments"
     };
-    (format!("line {}, column {}: {what}", error.line(), error.column()), mend)
+    (format!("line {}, column {}: {what}", error.line(), error.column()), help)
 }
 
 struct Node<'a> {

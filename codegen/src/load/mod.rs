@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::error::{Error, Faults};
+use crate::error::{Diagnostics, Error};
 use crate::spec::Spec;
 
 pub use hash::spec_hash;
@@ -50,7 +50,7 @@ pub struct Draft {
     /// What has the right shape, with stand-ins for what has not; `None` where too little has.
     pub loaded: Option<Loaded>,
     /// What has the wrong shape.
-    pub faults: Faults,
+    pub faults: Diagnostics,
     /// The sections that are stand-ins or left out, such as `control`.
     pub lost: BTreeSet<String>,
 }
@@ -98,7 +98,7 @@ pub fn parse(text: &str, path: &Path) -> Result<Loaded, Error> {
 
 /// The same, as far as it goes.
 fn drafted(text: &str, path: &Path) -> Result<Draft, Error> {
-    let mut faults = Faults::of(path);
+    let mut faults = Diagnostics::of(path);
     let nothing = |faults| Draft { loaded: None, faults, lost: BTreeSet::new() };
     let Some(mut value) = json::read(text, &mut faults) else { return Ok(nothing(faults)) };
     let before = faults.count();

@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use super::repair::repaired;
 use super::wording::{describe, either, entry, member, nearest, options, quoted, resolve, show, tag};
-use crate::error::{Error, Faults};
+use crate::error::{Diagnostics, Error};
 use crate::spec::Spec;
 
 /// Largest whole number that a field takes.
@@ -58,7 +58,7 @@ pub(super) fn repair(value: &mut Value) -> Result<Option<BTreeSet<String>>, Erro
 ///
 /// # Errors
 /// [`Error::Internal`] where the schema itself is broken.
-pub(super) fn check(value: &Value, faults: &mut Faults) -> Result<(), Error> {
+pub(super) fn check(value: &Value, faults: &mut Diagnostics) -> Result<(), Error> {
     let validator = validator()?;
     let errors: Vec<_> = validator.iter_errors(value).collect();
     Explainer { schema: &SCHEMA, faults }.all(&errors);
@@ -67,7 +67,7 @@ pub(super) fn check(value: &Value, faults: &mut Faults) -> Result<(), Error> {
 
 pub(super) struct Explainer<'a> {
     schema: &'a Value,
-    faults: &'a mut Faults,
+    faults: &'a mut Diagnostics,
 }
 
 impl<'a> Explainer<'a> {
@@ -91,13 +91,13 @@ impl<'a> Explainer<'a> {
             Kind::AdditionalProperties { unexpected } => {
                 let known: Vec<String> = properties(parent).map(str::to_string).collect();
                 for name in unexpected {
-                    let mend = match nearest(name, properties(parent)) {
+                    let help = match nearest(name, properties(parent)) {
                         Some(near) => {
                             format!("did you mean `{near}`? The fields here are {}", quoted(&known))
                         }
                         None => format!("remove it; the fields here are {}", quoted(&known)),
                     };
-                    self.faults.push(member(&field, name), "is not a field", mend);
+                    self.faults.push(member(&field, name), "is not a field", help);
                 }
             }
             Kind::Required { property } => {
@@ -111,11 +111,11 @@ impl<'a> Explainer<'a> {
                     .unwrap_or(&Value::Null);
                 let meaning = wanted.get("description").and_then(Value::as_str).unwrap_or_default();
                 let meaning = meaning.split("\n\n").next().unwrap_or_default().replace('\n', " ");
-                let mut mend = format!("write {}", describe(self.schema, wanted));
+                let mut help = format!("write {}", describe(self.schema, wanted));
                 if !meaning.is_empty() {
-                    mend.push_str(&format!(" ({})", meaning.trim_end_matches('.')));
+                    help.push_str(&format!(" ({})", meaning.trim_end_matches('.')));
                 }
-                self.faults.push(member(&field, name), "is missing", mend);
+                self.faults.push(member(&field, name), "is missing", help);
             }
             Kind::MinItems { .. } | Kind::MaxItems { .. } => {
                 let count = instance.as_array().map_or(0, Vec::len);

@@ -1,7 +1,7 @@
 //! Motions from a table `t,q1,…,qn`.
 
 use super::Spline;
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::load::Named;
 
 /// Most faults told of one file: a wrong column otherwise fills the screen.
@@ -13,7 +13,7 @@ const MOST_ROWS: usize = 20_000;
 /// Reads a table of times, s, and positions, rad or m, one row an instant; a first line of words is skipped.
 /// The end velocities are those of the parabolas through the first and last three points.
 /// `None` after at least one fault was added.
-pub(super) fn read(table: &Named, dof: usize, faults: &mut Faults) -> Option<Spline> {
+pub(super) fn read(table: &Named, dof: usize, faults: &mut Diagnostics) -> Option<Spline> {
     let path = table.path.as_path();
     let text = match table.text() {
         Ok(text) => text,
@@ -43,8 +43,8 @@ pub(super) fn read(table: &Named, dof: usize, faults: &mut Faults) -> Option<Spl
         }
         if times.len() == MOST_ROWS {
             let problem = format!("is row {} of numbers, and at most {MOST_ROWS} are read", MOST_ROWS + 1);
-            let mend = "keep every second row, or every tenth: a spline goes through the rows that are left";
-            faults.push_in(path, format!("line {line}"), problem, mend);
+            let help = "keep every second row, or every tenth: a spline goes through the rows that are left";
+            faults.push_in(path, format!("line {line}"), problem, help);
             return None;
         }
         match row(&record, dof, times.last().copied()) {
@@ -52,10 +52,10 @@ pub(super) fn read(table: &Named, dof: usize, faults: &mut Faults) -> Option<Spl
                 times.push(t);
                 positions.push(q);
             }
-            Err((problem, mend)) => {
+            Err((problem, help)) => {
                 wrong += 1;
                 if wrong <= MOST_FAULTS {
-                    faults.push_in(path, format!("line {line}"), problem, mend);
+                    faults.push_in(path, format!("line {line}"), problem, help);
                 }
             }
         }

@@ -57,10 +57,11 @@ impl Motion {
     }
 
     /// Bounds on |q_d|, |q̇_d| and |q̈_d| by joint over the whole motion that no instant exceeds.
-    pub fn reach(&self) -> Reach {
+    pub fn position_bound(&self) -> PositionRange {
         const INTERVALS: u32 = 1024;
         let n = self.dof();
-        let mut out = Reach { position: vec![0.0; n], speed: vec![0.0; n], acceleration: vec![0.0; n] };
+        let mut out =
+            PositionRange { position: vec![0.0; n], speed: vec![0.0; n], acceleration: vec![0.0; n] };
         let half = 0.5 * self.duration() / f64::from(INTERVALS);
         for k in 0..INTERVALS {
             let middle = half * f64::from(2 * k + 1);
@@ -92,7 +93,7 @@ fn size(terms: &[Sinusoid<f64>], k: u32) -> f64 {
 
 /// Bounds over a whole motion, by joint.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Reach {
+pub struct PositionRange {
     /// Largest |q_d|, rad or m.
     pub position: Vec<f64>,
     /// Largest |q̇_d|, rad/s or m/s.
@@ -120,7 +121,7 @@ mod tests {
             },
         ];
         for motion in motions {
-            let reach = motion.reach();
+            let position_bound = motion.position_bound();
             for k in 0..40 {
                 for length in [0.01, 0.1, 0.7] {
                     let t0 = 2.0 * f64::from(k) / 40.0;
@@ -134,9 +135,9 @@ mod tests {
                         let line = centre.q[0] + centre.qd[0] * (t - middle);
                         let off = 0.5 * most * (t - middle) * (t - middle);
                         assert!((target.q[0] - line).abs() <= off + 1e-14);
-                        assert!(target.q[0].abs() <= reach.position[0]);
-                        assert!(target.qd[0].abs() <= reach.speed[0]);
-                        assert!(target.qdd[0].abs() <= reach.acceleration[0]);
+                        assert!(target.q[0].abs() <= position_bound.position[0]);
+                        assert!(target.qd[0].abs() <= position_bound.speed[0]);
+                        assert!(target.qdd[0].abs() <= position_bound.acceleration[0]);
                     }
                 }
             }

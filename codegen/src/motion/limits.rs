@@ -2,8 +2,8 @@
 
 use super::Motion;
 use crate::arm::Arm;
-use crate::error::Faults;
-use crate::interval::Interval;
+use crate::error::Diagnostics;
+use crate::numerics::Interval;
 
 /// Instants among which the worst is sought.
 const INSTANTS: u32 = 2000;
@@ -16,7 +16,7 @@ const SLACK: f64 = 1e-9;
 
 /// Adds one fault for each limit of each joint that the motion breaks, with the worst instant; one alone where its
 /// numbers overflow. Between the instants that are looked at the motion is enclosed, so that no limit is broken unseen.
-pub fn check_limits(motion: &Motion, arm: &Arm, faults: &mut Faults) {
+pub fn check_limits(motion: &Motion, arm: &Arm, faults: &mut Diagnostics) {
     let times = (0..=INSTANTS).map(|k| motion.duration() * f64::from(k) / f64::from(INSTANTS));
     let targets: Vec<_> = times.map(|t| (t, motion.at(t))).collect();
     let finite = |target: &super::Target| {
@@ -121,7 +121,7 @@ mod tests {
     fn faults(motion: &Motion, edit: impl Fn(&mut Arm)) -> String {
         let mut arm = three_link();
         edit(&mut arm);
-        let mut faults = Faults::of(Path::new("a.json"));
+        let mut faults = Diagnostics::of(Path::new("a.json"));
         check_limits(motion, &arm, &mut faults);
         if faults.is_empty() { String::new() } else { faults.into_error().to_string() }
     }

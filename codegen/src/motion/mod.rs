@@ -8,11 +8,11 @@ mod spline;
 
 use gramforge_runtime::reference::{Sinusoid, cubic, quintic, sinusoids};
 
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::load::Loaded;
 use crate::spec::MotionSpec;
 
-pub use enclosure::Reach;
+pub use enclosure::PositionRange;
 pub use limits::check_limits;
 pub use span::Span;
 pub use spline::Spline;
@@ -58,7 +58,12 @@ pub struct Target {
 impl Motion {
     /// The motion that `spec` describes; `loaded` holds the CSV file that it may name.
     /// `None` after at least one fault was added.
-    pub fn from_spec(spec: &MotionSpec, dof: usize, loaded: &Loaded, faults: &mut Faults) -> Option<Self> {
+    pub fn from_spec(
+        spec: &MotionSpec,
+        dof: usize,
+        loaded: &Loaded,
+        faults: &mut Diagnostics,
+    ) -> Option<Self> {
         match spec {
             MotionSpec::Quintic { from, to, duration } => {
                 Some(Self::Quintic { from: from.clone(), to: to.clone(), duration: *duration })
@@ -92,7 +97,7 @@ impl Motion {
 
     /// A bound on |q̇_d| by joint that no instant exceeds, rad/s or m/s.
     pub fn largest_speed(&self) -> Vec<f64> {
-        self.reach().speed
+        self.position_bound().speed
     }
 
     /// A bound on |q̈_d| by joint that no instant exceeds, rad/s² or m/s².

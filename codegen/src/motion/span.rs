@@ -1,7 +1,7 @@
 //! What a motion is within an interval of time: ranges of position, speed, acceleration and jerk.
 
 use super::Motion;
-use crate::interval::Interval;
+use crate::numerics::Interval;
 
 /// Derivatives in the Taylor polynomial of a sinusoid; those of polynomials end by themselves.
 const ORDER: usize = 8;

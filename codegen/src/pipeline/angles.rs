@@ -1,11 +1,11 @@
 //! Rotations that are nearly right angles: where taking them for right angles would save operations.
 
 use crate::arm::{Arm, ROUND_ANGLES, distance};
-use crate::body;
 use crate::bounds::printed_up;
 use crate::graph::Graph;
 use crate::lagrangian::expand;
 use crate::load::Loaded;
+use crate::torque;
 
 /// Values of `arm.round_angles` that are tried: beyond the last an angle is not a right one written with few digits.
 const LEVELS: [f64; 6] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
@@ -23,7 +23,7 @@ pub(super) fn advice(loaded: &Loaded, arm: &Arm, given: &Arm, exact: &Graph) -> 
             continue;
         }
         last = rounded.clone();
-        let operations = body::exact(&rounded, &expand(&rounded)).1.operations().arithmetic();
+        let operations = torque::exact(&rounded, &expand(&rounded)).1.operations().arithmetic();
         if operations < best.as_ref().map_or(exact.operations().arithmetic(), |best| best.0) {
             best = Some((operations, level, rounded));
         }

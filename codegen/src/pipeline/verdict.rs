@@ -1,31 +1,31 @@
 //! Whether reducing pays.
 
 use super::Generation;
+use crate::choose::why_exact;
 use crate::graph::Operations;
-use crate::tolerance::why_exact;
 
 impl Generation {
     /// Whether reducing pays, in one sentence; of an exact model, why it is one.
     ///
-    /// Costs are compared as the search for a model compares them, by [`Operations::price`].
+    /// Costs are compared as the search for a model compares them, by [`Operations::cost`].
     pub fn verdict(&self) -> String {
-        if self.reduced.is_exact() {
-            let peak = self.torque.as_ref().map(|torque| torque.peak.as_slice());
-            return match self.loaded.spec.model.tolerance() {
-                Some(fraction) => why_exact(&self.arm, &self.lagrangian, peak, fraction),
+        if self.reduced().is_exact() {
+            let peak = self.torque().map(|torque| torque.peak.as_slice());
+            return match self.spec().model.tolerance() {
+                Some(fraction) => why_exact(self.arm(), self.lagrangian(), peak, fraction),
                 None => "this is the exact model.".to_string(),
             };
         }
-        if !self.reduced.simplified.contains(&true) {
+        if !self.reduced().simplified.contains(&true) {
             return "no coefficient has more functions than are kept, so nothing was simplified.".to_string();
         }
-        compared(&self.code.operations(), &self.exact_code.operations())
+        compared(&self.code().operations(), &self.exact_code().operations())
     }
 }
 
 fn compared(reduced: &Operations, exact: &Operations) -> String {
     let (mine, theirs) = (reduced.arithmetic(), exact.arithmetic());
-    if reduced.price() >= exact.price() {
+    if reduced.cost() >= exact.cost() {
         format!(
             "the exact one is not dearer ({theirs} operations and {} sine-cosine pairs against {mine} and {}), so reducing \
              does not pay here.",

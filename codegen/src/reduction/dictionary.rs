@@ -2,13 +2,13 @@
 
 use rayon::prelude::*;
 
-use super::basis::Basis;
-use super::chebyshev::{fit, spanning_points};
 use super::minimax::{largest, residual};
-use super::sparse::{Candidate, Group, Sparse, products};
+use super::sparse::{CandidateFunction, Group, Sparse, products};
 use super::{GramSchmidt, Samples, weight};
+use crate::domain::Measure;
 use crate::lagrangian::{Function, Lagrangian, evaluate};
-use crate::measure::Measure;
+use crate::numerics::basis::Basis;
+use crate::numerics::chebyshev::{fit, spanning_points};
 
 /// The functions among which a reduction chooses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,12 +23,12 @@ pub enum Dictionary {
 
 impl Dictionary {
     /// Its functions.
-    pub fn functions(self, lagrangian: &Lagrangian) -> Vec<Candidate> {
+    pub fn functions(self, lagrangian: &Lagrangian) -> Vec<CandidateFunction> {
         let plain = |l: &usize| {
             let psi = &lagrangian.functions[*l];
             self != Self::Product || *psi == Function::ONE || psi.is_first_degree()
         };
-        let harmonic = (0..lagrangian.functions.len()).filter(plain).map(Candidate::harmonic);
+        let harmonic = (0..lagrangian.functions.len()).filter(plain).map(CandidateFunction::harmonic);
         let more = if self == Self::Harmonic { Vec::new() } else { products(lagrangian, 2) };
         harmonic.chain(more).collect()
     }
@@ -41,15 +41,15 @@ impl Dictionary {
 pub fn over_dictionary(
     lagrangian: &Lagrangian,
     measure: &Measure,
-    dictionary: Vec<Candidate>,
+    dictionary: Vec<CandidateFunction>,
     functions: usize,
     separate: bool,
 ) -> Sparse {
     let samples = Samples::new(lagrangian, measure);
-    let column = |candidate: &Candidate| {
+    let column = |candidate: &CandidateFunction| {
         let mut sum = vec![0.0; measure.points.len()];
         for &(l, k) in &candidate.expansion {
-            super::samples::add_scaled(&mut sum, k, &samples.functions[l]);
+            crate::numerics::vector::add_scaled(&mut sum, k, &samples.functions[l]);
         }
         sum
     };

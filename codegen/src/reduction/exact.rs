@@ -1,6 +1,6 @@
 //! No reduction.
 
-use super::Reduced;
+use super::{Kind, Reduced};
 use crate::lagrangian::Lagrangian;
 
 /// The exact model: every coefficient as it is.
@@ -10,7 +10,6 @@ pub fn exact(lagrangian: &Lagrangian) -> Reduced {
         combinations: lagrangian.coefficients.iter().map(|c| c.terms.clone()).collect(),
         simplified: vec![false; lagrangian.coefficients.len()],
         variations: Vec::new(),
-        sparse: None,
-        dropped: None,
+        kind: Kind::Exact,
     }
 }

@@ -1,8 +1,8 @@
 //! Points of a domain where residuals are largest.
 
-use crate::measure::{Domain, Measure};
+use crate::domain::{Domain, Measure};
 use crate::motion::Motion;
-use crate::spread::{Spread, corner, in_box};
+use crate::numerics::low_discrepancy::{LowDiscrepancy, corner, in_box};
 
 /// Intervals of the desired motion.
 const INTERVALS: u32 = 200;
@@ -21,10 +21,10 @@ const WORKSPACE_POINTS: usize = 8192;
 /// (of a large arm's box a part that changes from instant to instant, but all at the ends of the motion) and points with some
 /// coordinates on the sides of the box and the others within. Over a workspace the points of the measure, as many again twice
 /// and the corners.
-pub fn extremes(measure: &Measure, domain: &Domain, motion: Option<&Motion>) -> Vec<Vec<f64>> {
-    match (domain, motion) {
-        (Domain::Tube(errors), Some(motion)) if errors.iter().any(|&e| e > 0.0) => tube(motion, errors),
-        (Domain::Workspace(limits), _) => workspace(measure, limits),
+pub fn extremes(measure: &Measure, domain: &Domain) -> Vec<Vec<f64>> {
+    match domain {
+        Domain::Tube(motion, errors) if errors.iter().any(|&e| e > 0.0) => tube(motion, errors),
+        Domain::Workspace(limits) => workspace(measure, limits),
         _ => measure.points.clone(),
     }
 }
@@ -33,7 +33,7 @@ fn tube(motion: &Motion, errors: &[f64]) -> Vec<Vec<f64>> {
     let n = errors.len();
     let corners = 1_usize << n;
     let turns = (corners / CORNERS).max(1);
-    let spread = Spread::new(n);
+    let spread = LowDiscrepancy::new(n);
     let mut points = Vec::new();
     for k in 0..=INTERVALS {
         let q = motion.at(motion.duration() * f64::from(k) / f64::from(INTERVALS)).q;
@@ -52,7 +52,7 @@ fn tube(motion: &Motion, errors: &[f64]) -> Vec<Vec<f64>> {
 }
 
 fn workspace(measure: &Measure, limits: &[[f64; 2]]) -> Vec<Vec<f64>> {
-    let spread = Spread::new(limits.len());
+    let spread = LowDiscrepancy::new(limits.len());
     // The measure has the first points of the sequence.
     let from = measure.points.len();
     let more = (from..from + WORKSPACE_POINTS).map(|index| spread.point(index));
@@ -63,22 +63,24 @@ fn workspace(measure: &Measure, limits: &[[f64; 2]]) -> Vec<Vec<f64>> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::{INTERVALS, OTHERS, extremes};
-    use crate::measure::{Domain, Measure};
+    use crate::domain::{Domain, Measure};
     use crate::motion::Motion;
 
     #[test]
     fn every_point_is_in_the_tube_and_every_corner_is_visited() {
         let n = 6;
         let motion = Motion::Quintic { from: vec![0.5; n], to: vec![0.5; n], duration: 1.0 };
-        let domain = Domain::Tube(vec![0.25; n]);
+        let domain = Domain::Tube(Arc::new(motion), vec![0.25; n]);
         let nothing = Measure {
             points: Vec::new(),
             weights: Vec::new(),
             acceleration_square: Vec::new(),
             velocity_square: Vec::new(),
         };
-        let points = extremes(&nothing, &domain, Some(&motion));
+        let points = extremes(&nothing, &domain);
         assert_eq!(points.len(), (INTERVALS as usize + 1) * (16 + OTHERS) + 2 * (64 - 16));
         assert!(points.iter().flatten().all(|q| (q - 0.5).abs() <= 0.25));
         let within = &points[64 + OTHERS..points.len() - 64 - OTHERS];
@@ -94,14 +96,14 @@ mod tests {
 
     #[test]
     fn without_errors_the_measure_is_enough() {
-        let motion = Motion::Quintic { from: vec![0.0], to: vec![1.0], duration: 1.0 };
+        let motion = Arc::new(Motion::Quintic { from: vec![0.0], to: vec![1.0], duration: 1.0 });
         let measure = Measure {
             points: vec![vec![0.5]],
             weights: vec![1.0],
             acceleration_square: Vec::new(),
             velocity_square: Vec::new(),
         };
-        assert_eq!(extremes(&measure, &Domain::Tube(vec![0.0]), Some(&motion)), measure.points);
-        assert_eq!(extremes(&measure, &Domain::Trajectory, Some(&motion)), measure.points);
+        assert_eq!(extremes(&measure, &Domain::Tube(motion.clone(), vec![0.0])), measure.points);
+        assert_eq!(extremes(&measure, &Domain::Path(motion)), measure.points);
     }
 }

@@ -5,7 +5,8 @@
 
 use rayon::prelude::*;
 
-use super::samples::{Samples, add_scaled, dot};
+use super::samples::Samples;
+use crate::numerics::vector::{add_scaled, dot};
 
 /// Norms that have shrunk below this fraction of the original are recomputed before use: the running
 /// difference has lost its digits.

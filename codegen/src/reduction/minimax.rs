@@ -5,9 +5,9 @@
 use rayon::prelude::*;
 
 use super::Reduced;
-use super::basis::Basis;
-use super::chebyshev::{fit, spanning_points};
 use crate::lagrangian::{Combination, Lagrangian, evaluate};
+use crate::numerics::basis::Basis;
+use crate::numerics::chebyshev::{fit, spanning_points};
 
 /// Residuals below this fraction of the coefficient are rounding: nothing to refit.
 pub(super) const ROUNDING: f64 = 1e-12;

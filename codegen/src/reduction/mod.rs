@@ -1,13 +1,9 @@
 //! The reduction: which ψ functions a model keeps, and with which parameters.
 
-mod basis;
-mod chebyshev;
 mod dictionary;
-mod dropped;
 mod exact;
 mod extremes;
 mod gram_schmidt;
-mod lu;
 mod minimax;
 mod rates;
 mod reestimate;
@@ -15,12 +11,11 @@ mod regression;
 mod samples;
 mod separate;
 mod shared;
+mod simplified_arm;
 mod sparse;
-mod tolerance;
 mod uniform;
 
 pub use dictionary::{Dictionary, minimax_sparse, over_dictionary};
-pub use dropped::{Dropped, Expressed, expressed};
 pub use exact::exact;
 pub use extremes::extremes;
 pub use gram_schmidt::{GramSchmidt, Pick};
@@ -31,12 +26,12 @@ pub use regression::{Learnt, Regression};
 pub use samples::Samples;
 pub use separate::{minimax_each, separate};
 pub use shared::shared;
-pub use sparse::{Candidate, Group, Sparse, products};
-pub use tolerance::{Member, Problem, STRICTEST, family};
+pub use simplified_arm::{Expressed, SimplifiedArm, expressed};
+pub use sparse::{CandidateFunction, Group, Sparse, products};
 pub(crate) use uniform::{solved, uniform};
 
+use crate::domain::Measure;
 use crate::lagrangian::{Coefficient, Combination, Entry, Lagrangian};
-use crate::measure::Measure;
 
 /// A model of the same structure (1) with simplified coefficients.
 ///
@@ -51,18 +46,45 @@ pub struct Reduced {
     pub combinations: Vec<Combination>,
     /// Whether α̂_m differs in form from α_m.
     pub simplified: Vec<bool>,
-    /// How the model is written down where it is more than its combinations.
-    pub sparse: Option<Sparse>,
     /// ∂α̂_m/∂u_k by index and uncertain parameter, for a law that learns u; empty where the model stays as it is.
     pub variations: Vec<Vec<Combination>>,
-    /// Where it is the exact model of another arm.
-    pub dropped: Option<Dropped>,
+    /// How it is made.
+    pub kind: Kind,
+}
+
+/// How a model is made.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Kind {
+    /// Nothing is left out.
+    Exact,
+    /// Sums of kept ψ functions.
+    Expanded,
+    /// Few functions for each coefficient, products among them.
+    Sparse(Sparse),
+    /// The exact model of another arm, which has fewer parameters.
+    SimplifiedArm(SimplifiedArm),
 }
 
 impl Reduced {
     /// True for the exact model.
     pub fn is_exact(&self) -> bool {
-        self.selected.is_empty() && self.dropped.is_none()
+        self.kind == Kind::Exact
+    }
+
+    /// How a sparse model is written down; `None` for the other kinds.
+    pub fn sparse(&self) -> Option<&Sparse> {
+        match &self.kind {
+            Kind::Sparse(sparse) => Some(sparse),
+            Kind::Exact | Kind::Expanded | Kind::SimplifiedArm(_) => None,
+        }
+    }
+
+    /// The other arm whose exact model this is; `None` for the other kinds.
+    pub fn simplified_arm(&self) -> Option<&SimplifiedArm> {
+        match &self.kind {
+            Kind::SimplifiedArm(arm) => Some(arm),
+            Kind::Exact | Kind::Expanded | Kind::Sparse(_) => None,
+        }
     }
 
     /// True where every parameter is a finite number.

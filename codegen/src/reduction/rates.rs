@@ -26,7 +26,7 @@ pub type Columns = BTreeMap<[i8; MAX_JOINTS], Vec<(usize, i8)>>;
 
 impl Rate {
     /// Operations that it takes.
-    pub fn price(self) -> usize {
+    pub fn cost(self) -> usize {
         match self {
             Rate::One | Rate::Acceleration(_) => 0,
             Rate::Velocities(j, k) => 1 + 2 * usize::from(j != k),
@@ -80,11 +80,11 @@ pub fn columns(sum: &[Term]) -> Option<Columns> {
 
 /// Operations of all sums together, given the rates that are needed alone, and the sums that are cheaper by columns.
 pub fn grouped(sums: &BTreeSet<Vec<Term>>, mut single: BTreeSet<Rate>) -> (usize, BTreeSet<Vec<Term>>) {
-    let mut cost = single.iter().map(|rate| rate.price()).sum();
+    let mut cost = single.iter().map(|rate| rate.cost()).sum();
     let mut out = BTreeSet::new();
     for sum in sums {
         let missing: usize =
-            sum.iter().filter(|term| !single.contains(&term.0)).map(|term| term.0.price()).sum();
+            sum.iter().filter(|term| !single.contains(&term.0)).map(|term| term.0.cost()).sum();
         let apart = sum.len() - 1 + missing;
         let together = columns(sum).map(|columns| {
             let one = |(column, ends): (&[i8; MAX_JOINTS], &Vec<(usize, i8)>)| {

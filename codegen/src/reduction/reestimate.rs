@@ -3,11 +3,11 @@
 use rayon::prelude::*;
 
 use super::Reduced;
-use super::basis::Basis;
-use super::chebyshev::{fit, spanning_points};
 use super::minimax::{Columns, ROUNDING, combination, largest};
-use super::samples::dot;
 use crate::lagrangian::{Combination, Lagrangian};
+use crate::numerics::basis::Basis;
+use crate::numerics::chebyshev::{fit, spanning_points};
+use crate::numerics::vector::dot;
 use crate::spec::RefitSpec;
 
 /// Lets every α̂_m follow the uncertain parameters: α̂_m + Σ_k u_k ∂α̂_m/∂u_k, where ∂α̂_m/∂u_k is what the kept

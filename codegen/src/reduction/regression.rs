@@ -86,11 +86,11 @@ impl Regression {
         out
     }
 
-    /// sup |∂α̂_m/∂θ_k| by parameter and coefficient where |q_j| ≤ `reach`, for coefficients with an effect.
-    pub fn largest_effects(&self, lagrangian: &Lagrangian, reach: &[f64]) -> Vec<Vec<(usize, f64)>> {
+    /// sup |∂α̂_m/∂θ_k| by parameter and coefficient where |q_j| ≤ `position_bound`, for coefficients with an effect.
+    pub fn largest_effects(&self, lagrangian: &Lagrangian, position_bound: &[f64]) -> Vec<Vec<(usize, f64)>> {
         let largest = |l: usize| -> f64 {
             let power: &[u8; MAX_JOINTS] = &lagrangian.functions[l].power;
-            reach.iter().zip(power).fold(1.0, |p, (q, &e)| (0..e).fold(p, |p, _| p * q))
+            position_bound.iter().zip(power).fold(1.0, |p, (q, &e)| (0..e).fold(p, |p, _| p * q))
         };
         let size = |terms: &Combination| terms.iter().map(|&(l, k)| k.abs() * largest(l)).sum::<f64>();
         let of = |p: &Learnt| p.effects.iter().map(|(m, terms)| (*m, size(terms))).collect();

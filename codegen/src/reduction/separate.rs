@@ -2,12 +2,12 @@
 
 use rayon::prelude::*;
 
-use super::basis::Basis;
-use super::chebyshev::{fit, spanning_points};
 use super::minimax::{Columns, ROUNDING, combination, largest, residual};
-use super::{GramSchmidt, Reduced, Samples};
+use super::{GramSchmidt, Kind, Reduced, Samples};
+use crate::domain::Measure;
 use crate::lagrangian::{Combination, Lagrangian};
-use crate::measure::Measure;
+use crate::numerics::basis::Basis;
+use crate::numerics::chebyshev::{fit, spanning_points};
 
 /// Where the model has more functions than this, a coefficient chooses among those of its own exact form alone.
 const MANY: usize = 1000;
@@ -41,8 +41,7 @@ pub fn separate(lagrangian: &Lagrangian, measure: &Measure, functions: usize) ->
         combinations,
         simplified,
         variations: Vec::new(),
-        sparse: None,
-        dropped: None,
+        kind: Kind::Expanded,
     }
 }
 

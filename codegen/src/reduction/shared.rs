@@ -1,8 +1,8 @@
 //! Mode `shared`: the same ξ functions for all simplified coefficients.
 
-use super::{GramSchmidt, Reduced, Samples, weight};
+use super::{GramSchmidt, Kind, Reduced, Samples, weight};
+use crate::domain::Measure;
 use crate::lagrangian::Lagrangian;
-use crate::measure::Measure;
 
 /// Keeps `functions` (ξ) functions, chosen by equations (3)–(8), for every coefficient that has more.
 ///
@@ -42,5 +42,5 @@ pub fn shared(lagrangian: &Lagrangian, measure: &Measure, functions: usize) -> R
             terms
         })
         .collect();
-    Reduced { selected, combinations, simplified, variations: Vec::new(), sparse: None, dropped: None }
+    Reduced { selected, combinations, simplified, variations: Vec::new(), kind: Kind::Expanded }
 }

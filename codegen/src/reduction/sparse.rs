@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::{Reduced, plus};
+use super::{Kind, Reduced, plus};
 use crate::lagrangian::{Absolute, Combination, Function, Lagrangian};
 
 /// A function that a model may keep: one ψ, or a product of two or three of them.
@@ -11,14 +11,14 @@ use crate::lagrangian::{Absolute, Combination, Function, Lagrangian};
 /// Holds: `expansion` is the same function as a combination of ψ of the exact model, so that residuals stay
 /// combinations of these.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Candidate {
+pub struct CandidateFunction {
     /// The factors, as indices into [`Lagrangian::functions`]; the last two are multiplied first.
     pub factors: Vec<usize>,
     /// The product expanded.
     pub expansion: Combination,
 }
 
-impl Candidate {
+impl CandidateFunction {
     /// The single function `l`.
     pub fn harmonic(l: usize) -> Self {
         Self { factors: vec![l], expansion: vec![(l, 1.0)] }
@@ -44,7 +44,7 @@ pub struct Group {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sparse {
     /// The functions that occur.
-    pub functions: Vec<Candidate>,
+    pub functions: Vec<CandidateFunction>,
     /// The forms, in the order of their first members.
     pub groups: Vec<Group>,
     /// The model whose coefficients these are, where it is written in absolute angles.
@@ -77,14 +77,7 @@ impl Sparse {
         let mut selected: Vec<usize> = combinations.iter().flatten().map(|&(l, _)| l).collect();
         selected.sort_unstable();
         selected.dedup();
-        Reduced {
-            selected,
-            combinations,
-            simplified,
-            variations: Vec::new(),
-            sparse: Some(self),
-            dropped: None,
-        }
+        Reduced { selected, combinations, simplified, variations: Vec::new(), kind: Kind::Sparse(self) }
     }
 
     /// α̂_m of the model as it is written, and whether it differs from α_m in form.
@@ -128,7 +121,7 @@ impl Sparse {
     pub(super) fn index_of_harmonic(&mut self, l: usize) -> usize {
         let known = self.functions.iter().position(|c| c.factors == [l]);
         known.unwrap_or_else(|| {
-            self.functions.push(Candidate::harmonic(l));
+            self.functions.push(CandidateFunction::harmonic(l));
             self.functions.len() - 1
         })
     }
@@ -171,7 +164,7 @@ const MANY: usize = 1000;
 
 /// Products of two functions of first degree and, where `most` is 3, of three that move disjoint sets of joints, as far
 /// as their expansions stay within the functions of the exact model.
-pub fn products(lagrangian: &Lagrangian, most: usize) -> Vec<Candidate> {
+pub fn products(lagrangian: &Lagrangian, most: usize) -> Vec<CandidateFunction> {
     let index: BTreeMap<Function, usize> =
         lagrangian.functions.iter().enumerate().map(|(l, &psi)| (psi, l)).collect();
     let within = |terms: &BTreeMap<Function, f64>| -> Option<Combination> {
@@ -189,7 +182,7 @@ pub fn products(lagrangian: &Lagrangian, most: usize) -> Vec<Candidate> {
         for &j in &first[place..] {
             let pair = functions[i].times(&functions[j]);
             if let Some(expansion) = within(&pair) {
-                out.push(Candidate { factors: vec![i, j], expansion });
+                out.push(CandidateFunction { factors: vec![i, j], expansion });
             }
             if most < 3 || functions.len() > MANY || !functions[i].is_disjoint(&functions[j]) {
                 continue;
@@ -208,7 +201,7 @@ pub fn products(lagrangian: &Lagrangian, most: usize) -> Vec<Candidate> {
                     let mut factors = vec![i, j, l];
                     // The far joints' product first: more products of three share it.
                     factors.sort_by_key(|&l| (functions[l].leading_joint(), l));
-                    out.push(Candidate { factors, expansion });
+                    out.push(CandidateFunction { factors, expansion });
                 }
             }
         }

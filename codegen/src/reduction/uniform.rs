@@ -1,8 +1,8 @@
 //! Approximation and linear systems for others.
 
-use super::basis::Basis;
-use super::chebyshev::{fit, spanning_points};
-use super::lu::Lu;
+use crate::numerics::basis::Basis;
+use crate::numerics::chebyshev::{fit, spanning_points};
+use crate::numerics::lu::Lu;
 
 /// Parameters c that nearly minimise max_i |values_i − Σ_j c_j columns_j(i)|, and a lower bound on what any achieve;
 /// columns that depend on those before get 0.

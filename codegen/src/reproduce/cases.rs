@@ -97,8 +97,8 @@ fn loaded(period: f64, stage: &Stage) -> Result<LoadedCases, Error> {
         })?;
         let scenario = Scenario::of(&generation)?;
         let on = |u: fn(&crate::arm::Parameter) -> f64| {
-            let u: Vec<f64> = generation.uncertainty.parameters.iter().map(u).collect();
-            simulate_on(&scenario, &generation.uncertainty.at(&generation.arm, &u))
+            let u: Vec<f64> = generation.uncertainty().parameters.iter().map(u).collect();
+            simulate_on(&scenario, &generation.uncertainty().at(generation.arm(), &u))
         };
         Ok([on(|p| p.low)?, on(|p| p.high)?])
     };

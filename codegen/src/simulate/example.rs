@@ -1,22 +1,21 @@
 //! Arms and scenarios for the tests: the three-link arm of the report's section 4, and chains of n joints.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use super::{Comparison, Scenario, simulate};
 use crate::arm::{Arm, Body, Joint, JointKind, Limits, Transform, Uncertainty};
-use crate::body::{expanded, recursive};
 use crate::bounds::{Bounds, Effort, certified};
-use crate::design::{Design, Problem, design};
+use crate::check::{Control, GainSource, InitialError, Tuning};
+use crate::control::{Design, DesignProblem, design};
+use crate::domain::{Domain, Measure};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::lagrangian::expand;
-use crate::measure::{Domain, Measure};
 use crate::motion::Motion;
 use crate::reduction::shared;
-use crate::spec::{
-    ControlSpec, CoriolisTermSpec, InitialErrorSpec, LawSpec, MatrixSpec, OnFaultSpec, SimulationSpec,
-    VectorSpec,
-};
+use crate::spec::{AdaptationSpec, CoriolisTermSpec, LawSpec, OnFaultSpec, SimulationSpec};
+use crate::torque::{expanded, recursive};
 
 /// A link: α (quarter turns), a, d, mass, diagonal of the pseudo-inertia, first moment, in its standard frame.
 type Link = (f64, f64, f64, f64, [f64; 3], [f64; 3]);
@@ -24,11 +23,11 @@ type Link = (f64, f64, f64, f64, [f64; 3], [f64; 3]);
 /// Owns what a [`Scenario`] borrows.
 pub(crate) struct Example {
     pub(crate) arm: Arm,
-    pub(crate) motion: Motion,
+    pub(crate) motion: Arc<Motion>,
     pub(crate) design: Design,
     pub(crate) code: Graph,
     pub(crate) bounds: Bounds,
-    pub(crate) initial: InitialErrorSpec,
+    pub(crate) initial: InitialError,
     pub(crate) simulation: SimulationSpec,
 }
 
@@ -54,41 +53,40 @@ impl Example {
         [tube, error]: [f64; 2],
     ) -> Self {
         let n = arm.dof();
-        let motion = Motion::Quintic { from: from.to_vec(), to: to.to_vec(), duration: 5.0 };
-        let tube = Domain::Tube(vec![tube; n]);
-        let measure = Measure::new(&tube, Some(&motion), &arm);
+        let motion = Arc::new(Motion::Quintic { from: from.to_vec(), to: to.to_vec(), duration: 5.0 });
+        let tube = Domain::Tube(motion.clone(), vec![tube; n]);
+        let measure = Measure::new(&tube, &arm);
         let lagrangian = expand(&arm);
         let (code, bounds) = match functions {
             Some(functions) => {
                 let reduced = shared(&lagrangian, &measure, functions);
-                let proofs = certified(&lagrangian, &reduced, &tube, Some(&motion), &Effort::default());
+                let proofs = certified(&lagrangian, &reduced, &tube, &Effort::default());
                 let deltas: Vec<f64> = proofs.iter().map(|proof| proof.bound).collect();
                 (expanded(&arm, &lagrangian, &reduced), Bounds::new(&lagrangian, &deltas))
             }
             None => (recursive(&arm), Bounds::new(&lagrangian, &vec![0.0; lagrangian.coefficients.len()])),
         };
-        let control = ControlSpec {
+        let diagonal =
+            |value: f64| (0..n).map(|i| (0..n).map(|j| if i == j { value } else { 0.0 }).collect()).collect();
+        let control = Control {
             law: if functions.is_some() { LawSpec::Report } else { LawSpec::Exact },
-            design: None,
-            period: Some(0.01),
-            w: Some(MatrixSpec::Scalar(40.0)),
-            pqq: Some(MatrixSpec::Scalar(0.25)),
-            omega: Some(MatrixSpec::Scalar(1.0)),
-            boundary_layer: boundary_layer.map(VectorSpec::Scalar),
-            initial_error: InitialErrorSpec {
-                position: VectorSpec::Scalar(error),
-                velocity: VectorSpec::Scalar(0.0),
-            },
+            gains: GainSource::Given(Tuning {
+                period: 0.01,
+                w: diagonal(40.0),
+                pqq: diagonal(0.25),
+                omega: diagonal(1.0),
+                boundary_layer: boundary_layer.map(|phi| vec![phi; n]),
+            }),
+            initial_error: InitialError { position: vec![error; n], velocity: vec![0.0; n] },
             coriolis_term: CoriolisTermSpec::Matrix,
             delta_c1: None,
+            adaptation: AdaptationSpec::default(),
             allow_long_period: true,
             require_guarantee: false,
             compensate_coulomb: false,
             on_fault: OnFaultSpec::Hold,
-            uncertainty: None,
-            adaptation: None,
         };
-        let design = design(&Problem {
+        let design = design(&DesignProblem {
             file: Path::new("example.json"),
             control: &control,
             arm: &arm,
@@ -118,7 +116,7 @@ impl Example {
         let rest = vec![0.3; n];
         // Bounds on D over a tube are another test's matter, and take long for eight joints.
         let mut out = Self::within(chain(n), [&rest, &rest], None, None, [0.0, 0.0]);
-        out.initial.position = VectorSpec::Scalar(0.2);
+        out.initial.position = vec![0.2; n];
         out.simulation.duration = Some(0.2);
         out
     }

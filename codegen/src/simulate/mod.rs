@@ -25,15 +25,15 @@ use self::array::{matrix, vector};
 use self::reference::MotionReference;
 use self::run::Rig;
 use crate::arm::Arm;
-use crate::body::Regressor;
 use crate::bounds::Bounds;
-use crate::check;
-use crate::design::{Adaptation, Design, checked};
+use crate::check::InitialError;
+use crate::control::{Adaptation, Design};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::motion::Motion;
 use crate::pipeline::Generation;
-use crate::spec::{CoriolisTermSpec, InitialErrorSpec, LawSpec, OnFaultSpec, SimulationSpec, VectorSpec};
+use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec, SimulationSpec};
+use crate::torque::Regressor;
 
 /// Runge–Kutta steps a control period, where the specification names none.
 const SUBSTEPS: usize = 10;
@@ -65,7 +65,7 @@ pub struct Scenario<'a> {
     /// The torque as a function of what the law learns.
     pub regressor: Option<&'a Regressor>,
     /// Error at time 0: the arm starts at q_d + position, q̇_d + velocity.
-    pub initial: &'a InitialErrorSpec,
+    pub initial: &'a InitialError,
     /// Duration and substeps.
     pub simulation: &'a SimulationSpec,
 }
@@ -76,25 +76,24 @@ impl<'a> Scenario<'a> {
     /// # Errors
     /// [`Error::Input`] where it has no motion or no controller.
     pub fn of(generation: &'a Generation) -> Result<Self, Error> {
-        let Generation { loaded, arm, given, motion, design, code, exact_code, bounds, regressor, .. } =
-            generation;
+        let file = generation.path();
         let missing = |field: &str, what: &str| {
-            let mend = format!("add `{field}` to the specification");
-            Error::input(&loaded.path, field, format!("is missing, and a simulation needs {what}"), mend)
+            let help = format!("add `{field}` to the specification");
+            Error::input(file, field, format!("is missing, and a simulation needs {what}"), help)
         };
-        let control = loaded.spec.control.as_ref();
+        let control = generation.control().ok_or_else(|| missing("control", "a law"));
         Ok(Self {
-            file: &loaded.path,
-            arm,
-            plant: given,
-            exact: exact_code,
-            motion: motion.as_ref().ok_or_else(|| missing("motion", "a desired motion"))?,
-            design: design.as_ref().ok_or_else(|| missing("control", "a law"))?,
-            code,
-            bounds,
-            regressor: regressor.as_ref(),
-            initial: &control.ok_or_else(|| missing("control", "a law"))?.initial_error,
-            simulation: &loaded.spec.simulation,
+            file,
+            arm: generation.arm(),
+            plant: generation.given(),
+            exact: generation.exact_code(),
+            motion: generation.motion().ok_or_else(|| missing("motion", "a desired motion"))?,
+            design: generation.design().ok_or_else(|| missing("control", "a law"))?,
+            code: generation.code(),
+            bounds: generation.bounds(),
+            regressor: generation.regressor(),
+            initial: &control?.initial_error,
+            simulation: &generation.spec().simulation,
         })
     }
 }
@@ -176,8 +175,8 @@ fn compare<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Compariso
         },
     );
     let refuse = |error: ConfigError| {
-        let mend = "correct the number of the control or simulation section that it comes from";
-        Error::input(file, "control", error.to_string(), mend)
+        let help = "correct the number of the control or simulation section that it comes from";
+        Error::input(file, "control", error.to_string(), help)
     };
     Ok(Comparison {
         exact: exact.map_err(refuse)?,
@@ -195,9 +194,9 @@ fn learning<const N: usize>(
 ) -> Result<AdaptiveLaw<f64, N, MOST_LEARNT>, Error> {
     let count = adaptation.rate.len();
     if count > MOST_LEARNT {
-        let mend = "learn the `uncertain` parameters";
+        let help = "learn the `uncertain` parameters";
         let problem = format!("are {count}; a simulation bears {MOST_LEARNT}");
-        return Err(Error::input(file, "control.adaptation.parameters", problem, mend));
+        return Err(Error::input(file, "control.adaptation.parameters", problem, help));
     }
     let padded = |values: &[f64], rest: f64| std::array::from_fn(|k| values.get(k).copied().unwrap_or(rest));
     let Adaptation { rate, low, high, initial, .. } = adaptation;
@@ -219,8 +218,8 @@ fn rig<'a, const N: usize>(scenario: &Scenario<'a>, plant: &'a Arm) -> Result<Ri
         coulomb: vector("the arm", &coulomb)?,
         reference: MotionReference::new(motion)?,
         initial: JointState {
-            q: initial_error("position", &initial.position)?,
-            qd: initial_error("velocity", &initial.velocity)?,
+            q: vector("the initial error", &initial.position)?,
+            qd: vector("the initial error", &initial.velocity)?,
         },
         gains: Gains {
             p12: matrix("P12", &design.gains.p12)?,
@@ -241,15 +240,11 @@ fn rig<'a, const N: usize>(scenario: &Scenario<'a>, plant: &'a Arm) -> Result<Ri
     })
 }
 
-fn initial_error<const N: usize>(name: &str, error: &VectorSpec) -> Result<[f64; N], Error> {
-    vector("the initial error", &checked(&format!("control.initial_error.{name}"), check::vector(error, N))?)
-}
-
 /// Control periods of the run, and Runge–Kutta steps in each.
 fn steps(scenario: &Scenario) -> Result<(u32, u32), Error> {
     let Scenario { file, motion, design, simulation, .. } = *scenario;
     let duration = simulation.duration.unwrap_or(motion.duration());
-    let refuse = |field: &str, problem: String, mend: &str| Err(Error::input(file, field, problem, mend));
+    let refuse = |field: &str, problem: String, help: &str| Err(Error::input(file, field, problem, help));
     if !(duration.is_finite() && duration > 0.0) {
         return refuse(
             "simulation.duration",

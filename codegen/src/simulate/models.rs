@@ -6,11 +6,11 @@ use gramforge_runtime::{AdaptiveModel, Bounds as RuntimeBounds, Model, Regressio
 
 use super::array::{cube, matrix, vector};
 use crate::arm::Arm;
-use crate::body::Regressor;
 use crate::bounds::Bounds;
 use crate::dynamics;
 use crate::error::Error;
 use crate::graph::Graph;
+use crate::torque::Regressor;
 
 /// The exact model of an arm with `N` joints, by the Newton–Euler recursion: zero bounds.
 #[derive(Clone, Copy, Debug)]

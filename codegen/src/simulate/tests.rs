@@ -100,6 +100,6 @@ fn impossible_numbers_are_the_users_fault() {
 #[test]
 fn parts_of_different_arms_are_refused() {
     let mut example = Example::three_link(None, None);
-    example.initial.position = VectorSpec::List(vec![0.1]);
+    example.initial.position = vec![0.1];
     assert!(matches!(example.simulate(), Err(Error::Internal(_))));
 }

@@ -1,7 +1,7 @@
 //! Names that collide with something, and modules of every kind: refused with a clear message, or accepted by the
 //! compiler and by clippy without a warning.
 
-use gramforge::check::from_loaded;
+use gramforge::internals::check::{Extent, checked};
 use gramforge::load::parse;
 use serde_json::{Value, json};
 
@@ -142,7 +142,7 @@ fn kinds() -> Vec<Value> {
 /// The message where the name is refused.
 fn refusal(spec: &Value) -> Option<String> {
     let loaded = parse(&spec.to_string(), std::path::Path::new("arm.json"));
-    loaded.and_then(from_loaded).err().map(|error| error.to_string())
+    loaded.and_then(|loaded| checked(loaded, Extent::Whole)).err().map(|error| error.to_string())
 }
 
 #[test]

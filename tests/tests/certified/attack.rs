@@ -27,7 +27,7 @@ pub fn attack(generation: &Generation, states: usize, starts: usize) -> Vec<Seen
     let worst = survey(&space, &errors, states);
     let see = |(index, worst): (usize, (f64, usize))| {
         let m = errors.simplified[index];
-        let certificate = &generation.certificates[m];
+        let certificate = &generation.certificates()[m];
         let f = |q: &[f64]| errors.one(index, q);
         let from = std::iter::once(worst.1).chain((0..starts).map(|start| states + start * 131 + index));
         let climbed = from.map(|start| ascend(&space, space.point(start), f)).fold(worst.0, f64::max);

@@ -1,9 +1,9 @@
 //! What a reduced model leaves out, by the recursive exact model rather than the expansion from which it was reduced.
 
 use gramforge::Generation;
-use gramforge::arm::JointKind;
-use gramforge::dynamics::{Position, passivity_torque};
-use gramforge::lagrangian::{Entry, Place};
+use gramforge::internals::arm::JointKind;
+use gramforge::internals::dynamics::{Position, passivity_torque};
+use gramforge::internals::lagrangian::{Entry, Place};
 
 /// The pass of the recursion that gives a column of the exact model.
 #[derive(Clone, Copy, PartialEq)]
@@ -31,9 +31,9 @@ pub struct Errors<'a> {
 impl<'a> Errors<'a> {
     /// Of all simplified coefficients of `generation`.
     pub fn new(generation: &'a Generation) -> Self {
-        let coefficients = &generation.lagrangian.coefficients;
+        let coefficients = &generation.lagrangian().coefficients;
         let simplified: Vec<usize> =
-            (0..coefficients.len()).filter(|&m| generation.reduced.simplified[m]).collect();
+            (0..coefficients.len()).filter(|&m| generation.reduced().simplified[m]).collect();
         let mut passes = Vec::new();
         let mut places = Vec::new();
         let mut kept = Vec::new();
@@ -49,7 +49,7 @@ impl<'a> Errors<'a> {
                 passes.push(pass);
             }
             places.push((index, place));
-            kept.extend(generation.reduced.combinations[m].iter().map(|&(l, _)| l));
+            kept.extend(generation.reduced().combinations[m].iter().map(|&(l, _)| l));
         }
         kept.sort_unstable();
         kept.dedup();
@@ -60,8 +60,8 @@ impl<'a> Errors<'a> {
     pub fn one(&self, index: usize, q: &[f64]) -> f64 {
         let (pass, place) = self.places[index];
         let column = self.column(self.passes[pass], &self.positions(q));
-        let functions = &self.generation.lagrangian.functions;
-        let terms = &self.generation.reduced.combinations[self.simplified[index]];
+        let functions = &self.generation.lagrangian().functions;
+        let terms = &self.generation.reduced().combinations[self.simplified[index]];
         let model: f64 = terms.iter().map(|&(l, k)| k * functions[l].evaluate(q)).sum();
         (place.sign * column[row(place.entry)] - model).abs()
     }
@@ -70,11 +70,11 @@ impl<'a> Errors<'a> {
     pub fn all(&self, q: &[f64]) -> Vec<f64> {
         let positions = self.positions(q);
         let columns: Vec<Vec<f64>> = self.passes.iter().map(|&pass| self.column(pass, &positions)).collect();
-        let functions = &self.generation.lagrangian.functions;
+        let functions = &self.generation.lagrangian().functions;
         let mut psi = vec![0.0; functions.len()];
         self.kept.iter().for_each(|&l| psi[l] = functions[l].evaluate(q));
         let error = |(&m, (pass, place)): (&usize, &(usize, Place))| {
-            let terms = &self.generation.reduced.combinations[m];
+            let terms = &self.generation.reduced().combinations[m];
             let model: f64 = terms.iter().map(|&(l, k)| k * psi[l]).sum();
             (place.sign * columns[*pass][row(place.entry)] - model).abs()
         };
@@ -82,15 +82,15 @@ impl<'a> Errors<'a> {
     }
 
     fn positions(&self, q: &[f64]) -> Vec<Position<f64>> {
-        let position = |(joint, &q): (&gramforge::arm::Joint, &f64)| match joint.kind {
+        let position = |(joint, &q): (&gramforge::internals::arm::Joint, &f64)| match joint.kind {
             JointKind::Revolute => Position::Revolute { sin: q.sin(), cos: q.cos() },
             JointKind::Prismatic => Position::Prismatic(q),
         };
-        self.generation.arm.joints.iter().zip(q).map(position).collect()
+        self.generation.arm().joints.iter().zip(q).map(position).collect()
     }
 
     fn column(&self, pass: Pass, q: &[Position<f64>]) -> Vec<f64> {
-        let arm = &self.generation.arm;
+        let arm = self.generation.arm();
         let rest = [0.0; 8];
         let unit = |j: usize| -> [f64; 8] { std::array::from_fn(|i| if i == j { 1.0 } else { 0.0 }) };
         let n = q.len();

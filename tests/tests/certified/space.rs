@@ -1,7 +1,7 @@
 //! The domain of a certificate as a box, and states in it.
 
 use gramforge::Generation;
-use gramforge::measure::Domain;
+use gramforge::internals::domain::Domain;
 
 /// Position errors and time, or positions.
 pub struct Space<'a> {
@@ -13,12 +13,13 @@ pub struct Space<'a> {
 impl<'a> Space<'a> {
     /// The domain for which `generation` was made.
     pub fn new(generation: &'a Generation) -> Self {
-        let mut sides: Vec<[f64; 2]> = match &generation.domain {
+        let mut sides: Vec<[f64; 2]> = match generation.domain() {
             Domain::Workspace(limits) => limits.clone(),
-            Domain::Tube(errors) => errors.iter().map(|e| [-e, *e]).collect(),
-            Domain::Trajectory => vec![[0.0; 2]; generation.arm.dof()],
+            Domain::Tube(_, errors) => errors.iter().map(|e| [-e, *e]).collect(),
+            Domain::Path(_) => vec![[0.0; 2]; generation.arm().dof()],
         };
-        if let (Some(motion), false) = (&generation.motion, matches!(generation.domain, Domain::Workspace(_)))
+        if let (Some(motion), false) =
+            (&generation.motion(), matches!(generation.domain(), Domain::Workspace(_)))
         {
             sides.push([0.0, motion.duration()]);
         }
@@ -27,7 +28,7 @@ impl<'a> Space<'a> {
 
     /// The position at the variables `x`.
     pub fn position(&self, x: &[f64]) -> Vec<f64> {
-        match (&self.generation.motion, x.get(self.generation.arm.dof())) {
+        match (&self.generation.motion(), x.get(self.generation.arm().dof())) {
             (Some(motion), Some(&t)) => motion.at(t).q.iter().zip(x).map(|(q, e)| q + e).collect(),
             _ => x.to_vec(),
         }
@@ -35,7 +36,7 @@ impl<'a> Space<'a> {
 
     /// Random point number `index`; every third one in a corner of the box of positions.
     pub fn point(&self, index: usize) -> Vec<f64> {
-        let n = self.generation.arm.dof();
+        let n = self.generation.arm().dof();
         let at = |(i, [low, high]): (usize, &[f64; 2])| {
             let u = uniform(index * 16 + i);
             low + (high - low) * if index.is_multiple_of(3) && i < n { u.round() } else { u }
@@ -46,7 +47,7 @@ impl<'a> Space<'a> {
     /// Whether the position `q` of instant `time` lies in the domain. A joint on which a coefficient does not depend
     /// may stand anywhere, also at 0.
     pub fn contains(&self, q: &[f64], time: Option<f64>) -> bool {
-        let centre = match (&self.generation.motion, time) {
+        let centre = match (&self.generation.motion(), time) {
             (Some(motion), Some(t)) => motion.at(t).q,
             _ => vec![0.0; q.len()],
         };

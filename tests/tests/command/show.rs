@@ -57,11 +57,11 @@ fn the_verdict_follows_from_the_operations() {
         let verdict = view["verdict"].as_str().expect("a sentence");
         assert!(verdict.contains(words), "{name}: {verdict}");
         assert!(verdict.ends_with('.') && verdict.matches(". ").count() == 0, "one sentence: {verdict}");
-        let price = |kind: &str| {
+        let cost = |kind: &str| {
             let count = |key: &str| view["operations"][kind][key].as_u64().expect("a count");
             count("mul") + count("add") + 12 * count("trig_pairs")
         };
-        assert_eq!(verdict.contains("reducing pays"), price("reduced") < price("exact"), "{verdict}");
+        assert_eq!(verdict.contains("reducing pays"), cost("reduced") < cost("exact"), "{verdict}");
         let error = view["torque_error"].as_array().expect("a list");
         assert_eq!((error.len(), view["peak_torque"].as_array().map(Vec::len)), (3, Some(3)));
         // The same sentences wherever it is spoken of.

@@ -1,9 +1,9 @@
 //! One arm under control, and what V does.
 
 use gramforge::Generation;
-use gramforge::arm::Arm;
-use gramforge::design::Design;
-use gramforge::simulate::ArmModel;
+use gramforge::internals::arm::Arm;
+use gramforge::internals::control::Design;
+use gramforge::internals::simulate::ArmModel;
 use gramforge_runtime::law::{Law, Sample, Tracking, lyapunov};
 use gramforge_runtime::reference::Reference;
 use gramforge_runtime::simulate::{JointState, Plant, RigidPlant, Simulation};
@@ -31,13 +31,13 @@ pub fn report<const N: usize>(design: &Design) -> ReportLaw<f64, N> {
 
 /// An arm of the family, the first ones at its vertices, with its own viscous friction.
 pub fn member(generation: &Generation, index: usize, random: &mut Random) -> (Vec<f64>, Arm) {
-    let family = &generation.uncertainty;
+    let family = generation.uncertainty();
     let share = |random: &mut Random| 0.5 + 0.5 * random.signed();
     let u: Vec<f64> = match family.vertices().nth(index) {
         Some(vertex) => vertex,
         None => family.parameters.iter().map(|p| p.low + share(random) * (p.high - p.low)).collect(),
     };
-    let mut arm = family.at(&generation.arm, &u);
+    let mut arm = family.at(generation.arm(), &u);
     for (joint, width) in arm.joints.iter_mut().zip(&family.viscous) {
         joint.viscous_friction += width * random.signed();
     }

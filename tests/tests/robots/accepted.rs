@@ -5,7 +5,11 @@ use serde_json::json;
 use crate::case::{Case, URDF, chain};
 
 fn warned(made: &gramforge::Generation, part: &str) {
-    assert!(made.warnings.iter().any(|warning| warning.contains(part)), "{:?} lacks {part:?}", made.warnings);
+    assert!(
+        made.warnings().iter().any(|warning| warning.contains(part)),
+        "{:?} lacks {part:?}",
+        made.warnings()
+    );
 }
 
 const LIMIT: &str = r#"<limit lower="-2" upper="2" effort="100" velocity="2"/>"#;
@@ -18,7 +22,7 @@ fn the_specification_wins_over_wrong_values() {
         .edit(LIMIT, r#"<limit lower="1" upper="-1" effort="-5" velocity="2"/>"#)
         .arm("joints", limits)
         .accepted(&chain());
-    let own = made.arm.joints[0].limits;
+    let own = made.arm().joints[0].limits;
     assert_eq!((own.position, own.torque, own.velocity), (Some([-2.0, 2.0]), Some(50.0), Some(2.0)));
     let made = Case::new("limits that are no numbers")
         .edit(LIMIT, r#"<limit lower="left" upper="right" effort="strong" velocity="fast"/>"#)
@@ -27,12 +31,12 @@ fn the_specification_wins_over_wrong_values() {
             json!({ "j1": { "limits": { "position": [-1.0, 1.0], "torque": 5.0, "velocity": 2.0 } } }),
         )
         .accepted(&chain());
-    assert_eq!(made.arm.joints[0].limits.velocity, Some(2.0));
+    assert_eq!(made.arm().joints[0].limits.velocity, Some(2.0));
     let made = Case::new("negative damping and friction")
         .edit(LIMIT, format!("{LIMIT}{DYNAMICS}"))
         .arm("joints", json!({ "j1": { "viscous_friction": 0.4, "coulomb_friction": [0.3, -0.2] } }))
         .accepted(&chain());
-    assert_eq!(made.arm.joints[0].coulomb_friction, [0.3, -0.2]);
+    assert_eq!(made.arm().joints[0].coulomb_friction, [0.3, -0.2]);
     Case::new("the same under a motor")
         .edit(LIMIT, format!("{LIMIT}{DYNAMICS}"))
         .arm(
@@ -50,10 +54,10 @@ fn the_specification_wins_over_wrong_values() {
 fn a_missing_speed_is_unknown() {
     let without = LIMIT.replace(r#" velocity="2""#, "");
     let made = Case::new("no speed, which nothing needs").edit(LIMIT, &*without).accepted(&chain());
-    assert_eq!(made.arm.joints[0].limits.velocity, None);
+    assert_eq!(made.arm().joints[0].limits.velocity, None);
     let given = json!({ "j1": { "limits": { "velocity": 2.0 } } });
     let made = Case::new("no speed").edit(LIMIT, &*without).arm("joints", given).accepted(&chain());
-    assert_eq!(made.arm.joints[0].limits.velocity, Some(2.0));
+    assert_eq!(made.arm().joints[0].limits.velocity, Some(2.0));
 }
 
 const PLATE: &str = r#"<link name="plate"><inertial><mass value="MASS"/><inertia ixx="IXX" iyy="1e-5" izz="1e-5" ixy="0"
@@ -198,7 +202,7 @@ fn followers_on_the_chain_move_with_their_masters() {
             .more("control", control)
             .accepted_as(text.as_bytes(), &coupled);
         // j2 may reach ±2, which holds j1 back where it turns as fast or slower.
-        assert_eq!(made.arm.joints[0].limits.position, Some([-2.0, 2.0]));
+        assert_eq!(made.arm().joints[0].limits.position, Some([-2.0, 2.0]));
     }
 }
 
@@ -228,7 +232,7 @@ fn rotors_are_read_from_transmissions() {
         .arm("joints", json!({ "j1": { "armature": 0.1 } }))
         .accepted(&own);
     let plain = transmission.replace("<motorInertia>0.0001</motorInertia>", "");
-    assert!(Case::new("a gear alone").with(&plain).accepted(&chain()).warnings.is_empty());
+    assert!(Case::new("a gear alone").with(&plain).accepted(&chain()).warnings().is_empty());
 }
 
 #[test]

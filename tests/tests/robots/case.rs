@@ -1,6 +1,7 @@
 //! A good arm of two joints, changed step by step, and what becomes of it.
 
-use gramforge::{Generation, dynamics};
+use gramforge::Generation;
+use gramforge::internals::dynamics;
 use gramforge_tests::chain::{Chain, Link};
 use gramforge_tests::random::Random;
 use gramforge_tests::{difference, largest};
@@ -150,16 +151,16 @@ impl Case {
     /// The same from other bytes.
     pub fn accepted_as(&self, bytes: &[u8], chain: &Chain) -> Generation {
         let made = self.run(bytes).unwrap_or_else(|message| panic!("{}: {message}", self.name));
-        assert_eq!(made.arm.dof(), chain.dof(), "{}", self.name);
+        assert_eq!(made.arm().dof(), chain.dof(), "{}", self.name);
         let mut random = Random::new(9);
         for _ in 0..10 {
             let n = chain.dof();
             let (q, qd, qdd) = (random.vector(n, 1.5), random.vector(n, 2.0), random.vector(n, 5.0));
             let pairs = [
-                (dynamics::mass_matrix(&made.arm, &q).concat(), chain.mass_matrix(&q).concat()),
-                (dynamics::coriolis(&made.arm, &q, &qd).concat(), chain.coriolis(&q, &qd).concat()),
-                (made.code.interpret(&q, &qd, &vec![0.0; n], &vec![0.0; n]), chain.gravity_torque(&q)),
-                (made.code.interpret(&q, &qd, &qd, &qdd), chain.torque(&q, &qd, &qdd)),
+                (dynamics::mass_matrix(made.arm(), &q).concat(), chain.mass_matrix(&q).concat()),
+                (dynamics::coriolis(made.arm(), &q, &qd).concat(), chain.coriolis(&q, &qd).concat()),
+                (made.code().interpret(&q, &qd, &vec![0.0; n], &vec![0.0; n]), chain.gravity_torque(&q)),
+                (made.code().interpret(&q, &qd, &qd, &qdd), chain.torque(&q, &qd, &qdd)),
             ];
             for (ours, theirs) in pairs {
                 let error = difference(&ours, &theirs);

@@ -1,10 +1,10 @@
 //! No member of the family exceeds a bound, anywhere in the domain.
 
 use gramforge::Generation;
-use gramforge::bounds::at_vertices;
-use gramforge::dynamics::{coriolis, gravity, mass_matrix};
-use gramforge::lagrangian::{Combination, Lagrangian, evaluate};
-use gramforge::reduction::{Reduced, plus};
+use gramforge::internals::bounds::at_vertices;
+use gramforge::internals::dynamics::{coriolis, gravity, mass_matrix};
+use gramforge::internals::lagrangian::{Combination, Lagrangian, evaluate};
+use gramforge::internals::reduction::{Reduced, plus};
 use gramforge_tests::random::Random;
 use gramforge_tests::{edited, largest};
 use serde_json::{Value, json};
@@ -42,7 +42,8 @@ fn four_numbers() -> Value {
 #[test]
 fn vertices_hold_the_whole_box() {
     for law in ["report", "adaptive"] {
-        let Generation { lagrangian, reduced, .. } = uncertain(law, 2, &four_numbers());
+        let made = uncertain(law, 2, &four_numbers());
+        let (lagrangian, reduced) = (made.lagrangian(), made.reduced());
         let mut random = Random::new(11);
         let grid: Vec<Vec<f64>> = (0..5_usize.pow(4))
             .map(|index| {
@@ -56,13 +57,13 @@ fn vertices_hold_the_whole_box() {
             .collect();
         let mut compared = 0;
         for m in 0..lagrangian.coefficients.len() {
-            let vertices = at_vertices(&lagrangian, &reduced, m);
+            let vertices = at_vertices(lagrangian, reduced, m);
             let members: Vec<Combination> =
-                grid.iter().map(|u| residual(&lagrangian, &reduced, m, u)).collect();
+                grid.iter().map(|u| residual(lagrangian, reduced, m, u)).collect();
             for _ in 0..5 {
                 let q = random.vector(3, 3.0);
                 let most = |of: &[Combination]| {
-                    of.iter().map(|terms| value(&lagrangian, terms, &q)).fold(0.0, f64::max)
+                    of.iter().map(|terms| value(lagrangian, terms, &q)).fold(0.0, f64::max)
                 };
                 let (vertex, brute) = (most(&vertices), most(&members));
                 assert!(
@@ -98,10 +99,10 @@ fn walk(mut x: Vec<f64>, f: impl Fn(&[f64]) -> f64) -> (f64, Vec<f64>) {
 
 /// q and u at `x`: three errors within the tube of 0.2 rad, time, then u.
 fn place(generation: &Generation, x: &[f64]) -> (Vec<f64>, Vec<f64>) {
-    let motion = generation.motion.as_ref().unwrap();
+    let motion = generation.motion().unwrap();
     let q =
         motion.at(x[3] * motion.duration()).q.iter().zip(x).map(|(q, e)| q + 0.2 * (2.0 * e - 1.0)).collect();
-    let ranges = &generation.lagrangian.ranges;
+    let ranges = &generation.lagrangian().ranges;
     (q, ranges.iter().zip(&x[4..]).map(|([low, high], x)| low + x * (high - low)).collect())
 }
 
@@ -109,7 +110,13 @@ fn place(generation: &Generation, x: &[f64]) -> (Vec<f64>, Vec<f64>) {
 fn no_member_exceeds_a_bound_in_torque() {
     for law in ["report", "adaptive"] {
         let generation = uncertain(law, 2, &four_numbers());
-        let Generation { arm, lagrangian, reduced, certificates, bounds, .. } = &generation;
+        let (arm, lagrangian, reduced, certificates, bounds) = (
+            generation.arm(),
+            generation.lagrangian(),
+            generation.reduced(),
+            generation.certificates(),
+            generation.bounds(),
+        );
         assert_eq!(bounds.b, [0.5, 0.0, 0.2]);
         let mut random = Random::new(5);
         let mut nearest = f64::INFINITY;
@@ -136,7 +143,7 @@ fn no_member_exceeds_a_bound_in_torque() {
             nearest = nearest.min(most / certificate.bound);
             // There the torque of the law's model misses that of the member by no more than the bounds say.
             let (q, u) = place(&generation, &x);
-            let member = generation.uncertainty.at(arm, &u);
+            let member = generation.uncertainty().at(arm, &u);
             let [qd, v_r, a_r] = [(); 3].map(|()| random.vector(3, 3.0));
             let exact = plus_all(&[
                 matvec(&mass_matrix(&member, &q), &a_r),
@@ -165,14 +172,14 @@ fn no_member_exceeds_a_bound_in_torque() {
 
 /// The torque of the law's model: for a law that learns, at the θ that stands for `u`, which is in its box.
 fn model(generation: &Generation, q: &[f64], [qd, v_r, a_r]: &[&[f64]; 3], u: &[f64]) -> Vec<f64> {
-    let (Some(regressor), Some(design)) = (&generation.regressor, &generation.design) else {
-        return generation.code.interpret(q, qd, v_r, a_r);
+    let (Some(regressor), Some(design)) = (&generation.regressor(), &generation.design()) else {
+        return generation.code().interpret(q, qd, v_r, a_r);
     };
     let adaptation = design.adaptation.as_ref().unwrap();
     let outputs = regressor.code.interpret(q, qd, v_r, a_r);
     let mut rows = outputs.chunks(3).map(<[f64]>::to_vec);
     let mut sum =
-        if regressor.own_base { generation.code.interpret(q, qd, v_r, a_r) } else { rows.next().unwrap() };
+        if regressor.own_base { generation.code().interpret(q, qd, v_r, a_r) } else { rows.next().unwrap() };
     for (k, column) in rows.enumerate() {
         assert!(adaptation.low[k] <= u[k] && u[k] <= adaptation.high[k]);
         sum.iter_mut().zip(column).for_each(|(sum, y)| *sum += u[k] * y);

@@ -1,9 +1,9 @@
 //! The expansion of a family, against the oracle and against specifications with other numbers.
 
-use gramforge::arm::{Arm, Built, Uncertainty};
-use gramforge::dynamics::{coriolis, gravity, mass_matrix};
-use gramforge::lagrangian::{Combination, Lagrangian, expand_family};
-use gramforge::reduction::plus;
+use gramforge::internals::arm::{Arm, Built, Uncertainty};
+use gramforge::internals::dynamics::{coriolis, gravity, mass_matrix};
+use gramforge::internals::lagrangian::{Combination, Lagrangian, expand_family};
+use gramforge::internals::reduction::plus;
 use gramforge_tests::random::Random;
 use gramforge_tests::{difference, edited, edited_arm, largest};
 use serde_json::{Value, json};
@@ -19,7 +19,7 @@ fn ten_numbers() -> Value {
 }
 
 fn some_u(uncertainty: &Uncertainty, random: &mut Random) -> Vec<f64> {
-    let of = |p: &gramforge::arm::Parameter| {
+    let of = |p: &gramforge::internals::arm::Parameter| {
         let share = 0.5 + 0.5 * random.signed();
         p.low + share * (p.high - p.low)
     };
@@ -27,7 +27,7 @@ fn some_u(uncertainty: &Uncertainty, random: &mut Random) -> Vec<f64> {
 }
 
 fn combinations(lagrangian: &Lagrangian, u: &[f64]) -> Vec<Combination> {
-    let of = |c: &gramforge::lagrangian::Coefficient| {
+    let of = |c: &gramforge::internals::lagrangian::Coefficient| {
         u.iter().zip(&c.variations).fold(c.terms.clone(), |sum, (u, v)| plus(&sum, *u, v))
     };
     lagrangian.coefficients.iter().map(of).collect()
@@ -97,7 +97,8 @@ fn a_member_is_the_arm_with_that_number_in_its_specification() {
     let mut random = Random::new(3);
     let mut check = |arm: &Arm, uncertainty: &Uncertainty, field: &str, value: f64, other: &Arm| {
         let lagrangian = expand_family(arm, uncertainty);
-        let at = |p: &gramforge::arm::Parameter| if p.name == field { value - p.nominal } else { 0.0 };
+        let at =
+            |p: &gramforge::internals::arm::Parameter| if p.name == field { value - p.nominal } else { 0.0 };
         let u: Vec<f64> = uncertainty.parameters.iter().map(at).collect();
         assert!(u.iter().any(|u| *u != 0.0), "{field}");
         let worst = apart(&lagrangian, &u, other, &mut random);

@@ -2,9 +2,9 @@
 //! exact bounds.
 
 use gramforge::Generation;
-use gramforge::bounds::{Effort, at_vertices, factor, factor_bounds};
-use gramforge::lagrangian::{Combination, evaluate};
-use gramforge::reduction::plus;
+use gramforge::internals::bounds::{Effort, at_vertices, factor, factor_bounds};
+use gramforge::internals::lagrangian::{Combination, evaluate};
+use gramforge::internals::reduction::plus;
 use gramforge_tests::edited;
 use gramforge_tests::random::Random;
 use serde_json::{Value, json};
@@ -40,7 +40,8 @@ fn every_member_has_its_parameters_in_the_box() {
                 { "joint": "joint3", "mass": [2.8, 4.2], "first_moment": [[-0.35, -0.25], null, null] }
             ] });
         });
-        let Generation { lagrangian, reduced, regression, .. } = &generation;
+        let (lagrangian, reduced, regression) =
+            (generation.lagrangian(), generation.reduced(), generation.regression());
         let regression = regression.as_ref().unwrap();
         assert_eq!(regression.parameters.len() == 3, kind == "uncertain");
         let mut random = Random::new(2);
@@ -58,7 +59,7 @@ fn every_member_has_its_parameters_in_the_box() {
                         .fold(reduced.combinations[m].clone(), |sum, (u, v)| plus(&sum, *u, v))
                 })
                 .collect();
-            let theta = |(k, p): (usize, &gramforge::reduction::Learnt)| match kind {
+            let theta = |(k, p): (usize, &gramforge::internals::reduction::Learnt)| match kind {
                 "uncertain" => u[k],
                 _ => coefficient(&wanted[p.effects[0].0], p.effects[0].1[0].0),
             };
@@ -81,9 +82,16 @@ fn every_member_has_its_parameters_in_the_box() {
 /// Factor bound over exact bound, coefficient by coefficient, and how often the factor is exceeded by what some member
 /// leaves out at some position.
 fn table(generation: &Generation, effort: &Effort) -> (Vec<f64>, usize) {
-    let Generation { lagrangian, reduced, uncertainty, domain, motion, certificates, .. } = generation;
-    let by_factor = factor_bounds(lagrangian, reduced, uncertainty, domain, motion.as_ref(), effort);
-    println!("{}: coefficient, factor, by factor, exact, ratio", generation.loaded.spec.name);
+    let (lagrangian, reduced, uncertainty, domain, _motion, certificates) = (
+        generation.lagrangian(),
+        generation.reduced(),
+        generation.uncertainty(),
+        generation.domain(),
+        generation.motion(),
+        generation.certificates(),
+    );
+    let by_factor = factor_bounds(lagrangian, reduced, uncertainty, domain, effort);
+    println!("{}: coefficient, factor, by factor, exact, ratio", generation.spec().name);
     let (mut ratios, mut exceeded) = (Vec::new(), 0);
     for (m, (own, certificate)) in by_factor.iter().zip(certificates).enumerate() {
         if certificate.bound == 0.0 {
@@ -142,7 +150,7 @@ fn a_nominal_value_at_which_contributions_cancel_defeats_the_factor() {
         v["arm"]["dh"]["links"][2]["pseudo_inertia"]["xx"] = json!(1.5);
         heavier(1)(v);
     });
-    let Generation { lagrangian, reduced, .. } = &generation;
+    let (lagrangian, reduced) = (generation.lagrangian(), generation.reduced());
     let (ratios, exceeded) = table(&generation, &Effort::default());
     assert!(exceeded > 0 && ratios[0] < 0.95, "{ratios:?}");
     assert!((0..lagrangian.coefficients.len()).all(|m| at_vertices(lagrangian, reduced, m).len() <= 2));

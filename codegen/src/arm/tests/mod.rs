@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::{Arm, Built, JointKind, Transform};
-use crate::error::{Error, Faults};
+use crate::error::{Diagnostics, Error};
 use crate::load::{Loaded, load, parse};
 
 type Vector = [f64; 3];
@@ -25,7 +25,7 @@ fn data(name: &str) -> PathBuf {
 
 fn build(path: &Path) -> Built {
     let loaded = load(path).unwrap_or_else(|e| panic!("{e}"));
-    let mut faults = Faults::of(&loaded.path);
+    let mut faults = Diagnostics::of(&loaded.path);
     let built = Arm::from_spec(&loaded, &mut faults);
     built.unwrap_or_else(|| panic!("{}", faults.into_error()))
 }
@@ -209,7 +209,7 @@ fn arm_of(value: &Value) -> Result<Built, Error> {
 }
 
 fn built(loaded: &Loaded) -> Result<Built, Error> {
-    let mut faults = Faults::of(&loaded.path);
+    let mut faults = Diagnostics::of(&loaded.path);
     match Arm::from_spec(loaded, &mut faults) {
         Some(built) => faults.finish(built),
         None => Err(faults.into_error()),

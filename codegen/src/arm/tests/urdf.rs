@@ -64,22 +64,22 @@ pub(super) fn outcome(name: &str, urdf: &str, arm: Value) -> Result<crate::arm::
 fn bodies_behind_fixed_and_locked_joints_ride_along() {
     let arm = outcome("ride", ARM, usual()).expect("an arm").arm;
     assert_eq!(arm.dof(), 2);
-    let [swing, reach] = arm.joints.as_slice() else { panic!("two joints") };
-    assert_eq!((swing.kind, reach.kind), (JointKind::Revolute, JointKind::Prismatic));
+    let [swing, position_bound] = arm.joints.as_slice() else { panic!("two joints") };
+    assert_eq!((swing.kind, position_bound.kind), (JointKind::Revolute, JointKind::Prismatic));
     assert_eq!(swing.body.mass, 2.5);
-    assert_eq!(reach.body.mass, 1.25);
+    assert_eq!(position_bound.body.mass, 1.25);
     // In the URDF frame of the upper link; the joint frame's z is that frame's y.
     let turn = Transform::z_to([0.0, 1.0, 0.0]);
     near("upper", &turn.turn(swing.body.first_moment), &[0.2, 0.0, 0.15], 1e-15);
     // The finger, held 0.04 m along y; the default axis x slides.
     let turn = Transform::z_to([1.0, 0.0, 0.0]);
-    near("slide", &turn.turn(reach.body.first_moment), &[0.0, 0.01, 0.0], 1e-15);
+    near("slide", &turn.turn(position_bound.body.first_moment), &[0.0, 0.01, 0.0], 1e-15);
     near("tool", &turn.apply(arm.tip.translation), &[0.2, 0.0, 0.0], 1e-15);
     assert_eq!(swing.viscous_friction, 0.5);
     assert_eq!(swing.coulomb_friction, [0.25, -0.25]);
     assert_eq!(swing.limits.torque, None);
     assert_eq!(swing.limits.velocity, Some(3.0));
-    assert_eq!(reach.limits.position, Some([0.0, 0.4]));
+    assert_eq!(position_bound.limits.position, Some([0.0, 0.4]));
 }
 
 #[test]

@@ -8,7 +8,7 @@ pub(super) struct Unreadable {
     /// What is wrong.
     pub problem: String,
     /// What to do about it.
-    pub mend: &'static str,
+    pub help: &'static str,
 }
 
 const SAVE: &str = "save the file as UTF-8";
@@ -39,7 +39,7 @@ pub(super) fn text(bytes: &[u8]) -> Result<String, Unreadable> {
         Ok(bytes.iter().map(|&byte| char::from(byte)).collect())
     } else {
         let problem = format!("declares the encoding {name:?}, which is not read");
-        Err(Unreadable { line: Some(1), problem, mend: SAVE })
+        Err(Unreadable { line: Some(1), problem, help: SAVE })
     }
 }
 
@@ -60,13 +60,13 @@ fn utf_8(bytes: &[u8]) -> Result<String, Unreadable> {
         Unreadable {
             line: Some(line(&String::from_utf8_lossy(good))),
             problem: format!("holds the byte {byte:#04x}, which is not UTF-8"),
-            mend: "save the file as UTF-8, or declare encoding=\"ISO-8859-1\" where it is Latin-1",
+            help: "save the file as UTF-8, or declare encoding=\"ISO-8859-1\" where it is Latin-1",
         }
     })
 }
 
 fn utf_16(bytes: &[u8], word: fn([u8; 2]) -> u16) -> Result<String, Unreadable> {
-    let wrong = |problem: &str| Unreadable { line: None, problem: problem.to_string(), mend: SAVE };
+    let wrong = |problem: &str| Unreadable { line: None, problem: problem.to_string(), help: SAVE };
     let (pairs, rest) = bytes.as_chunks::<2>();
     if !rest.is_empty() {
         return Err(wrong("is UTF-16 with half a character at its end"));

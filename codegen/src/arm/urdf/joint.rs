@@ -8,12 +8,17 @@ use super::super::place::Place;
 use super::super::{Body, JointKind, Limits, Transform, validate};
 use super::robot::{Joint, Kind, Link, number, required, triple};
 use super::xml::Element;
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::spec::{ArmSpec, DriveSpec, LimitsSpec};
 
 /// The pose that `<origin>` inside `element` gives, rounded by up to `angle` rad; the identity without one. `place` is the
 /// element's.
-pub(super) fn pose(element: &Element, angle: f64, place: &Place, faults: &mut Faults) -> Option<Transform> {
+pub(super) fn pose(
+    element: &Element,
+    angle: f64,
+    place: &Place,
+    faults: &mut Diagnostics,
+) -> Option<Transform> {
     let Some(origin) = element.one("origin", place, faults) else { return Some(Transform::IDENTITY) };
     let place = place.at("origin").on(origin.line);
     if let Some(quaternion) = origin.attribute("quat_xyzw") {
@@ -32,7 +37,7 @@ pub(super) fn pose(element: &Element, angle: f64, place: &Place, faults: &mut Fa
 }
 
 /// The rotation from the joint's URDF frame to one whose z is the axis.
-pub(super) fn axis(element: &Element, place: &Place, faults: &mut Faults) -> Option<Transform> {
+pub(super) fn axis(element: &Element, place: &Place, faults: &mut Diagnostics) -> Option<Transform> {
     let otherwise = [1.0, 0.0, 0.0];
     let (xyz, place) = match element.one("axis", place, faults) {
         None => (otherwise, place.at("axis")),
@@ -43,8 +48,8 @@ pub(super) fn axis(element: &Element, place: &Place, faults: &mut Faults) -> Opt
     };
     let largest = xyz.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
     if largest == 0.0 || !xyz.iter().all(|v| v.is_finite()) {
-        let mend = "write a direction, such as 0 0 1";
-        place.fault(faults, format!("is {xyz:?}"), mend);
+        let help = "write a direction, such as 0 0 1";
+        place.fault(faults, format!("is {xyz:?}"), help);
         return None;
     }
     // Scaled first: the squares of very small or large numbers leave the range of f64.
@@ -54,11 +59,21 @@ pub(super) fn axis(element: &Element, place: &Place, faults: &mut Faults) -> Opt
 }
 
 /// A link's body in the link frame.
-pub(super) fn body(link: &Link<'_>, angle: f64, faults: &mut Faults, warnings: &mut Vec<String>) -> Body {
+pub(super) fn body(
+    link: &Link<'_>,
+    angle: f64,
+    faults: &mut Diagnostics,
+    warnings: &mut Vec<String>,
+) -> Body {
     inertia(link, angle, faults, warnings).unwrap_or_default()
 }
 
-fn inertia(link: &Link<'_>, angle: f64, faults: &mut Faults, warnings: &mut Vec<String>) -> Option<Body> {
+fn inertia(
+    link: &Link<'_>,
+    angle: f64,
+    faults: &mut Diagnostics,
+    warnings: &mut Vec<String>,
+) -> Option<Body> {
     let inertial = link.element.one("inertial", &link.place, faults)?;
     let place = link.place.at("inertial").on(inertial.line);
     let pose = pose(inertial, angle, &place, faults);
@@ -89,7 +104,7 @@ fn inertia(link: &Link<'_>, angle: f64, faults: &mut Faults, warnings: &mut Vec<
 
 /// Warns where a joint is held at a position beyond its limits; `file` is the specification.
 pub(super) fn lock(joint: &Joint<'_>, position: f64, file: &Path, warnings: &mut Vec<String>) {
-    let mut unheard = Faults::of(file);
+    let mut unheard = Diagnostics::of(file);
     let Some(limit) = joint.element.all("limit").next() else { return };
     let mut end = |name: &str| number(limit, name, &joint.place, &mut unheard).unwrap_or(0.0);
     let range = [end("lower"), end("upper")];
@@ -134,7 +149,7 @@ pub(super) fn merged(
     kind: JointKind,
     spec: &ArmSpec,
     armature: Option<&(f64, String)>,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
     warnings: &mut Vec<String>,
 ) -> Drive {
     let place = &joint.place;
@@ -185,7 +200,7 @@ pub(super) fn merged(
 }
 
 /// The limits of the file that nothing replaces.
-fn file_limits(joint: &Joint<'_>, kind: JointKind, replaced: &Replaced, faults: &mut Faults) -> Limits {
+fn file_limits(joint: &Joint<'_>, kind: JointKind, replaced: &Replaced, faults: &mut Diagnostics) -> Limits {
     let Some(limit) = joint.element.one("limit", &joint.place, faults) else { return Limits::default() };
     let place = joint.place.at("limit").on(limit.line);
     let mut read = |name: &str, replaced: bool| match replaced {

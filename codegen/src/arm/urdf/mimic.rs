@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::robot::{Joint, Kind, number};
 use super::tree::Role;
 use super::xml::Element;
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::spec::ArmSpec;
 
 /// How a joint follows one that moves by itself.
@@ -27,7 +27,7 @@ pub(super) fn role<'a>(
     all: &BTreeMap<&str, &'a Joint<'a>>,
     chain: &BTreeSet<&str>,
     spec: &ArmSpec,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) -> Option<Role<'a>> {
     let (master, follow) = followed(joint, element, all, spec, faults)?;
     let held = match master.kind {
@@ -42,11 +42,11 @@ pub(super) fn role<'a>(
     }
     let place = joint.place.at("mimic").on(element.line);
     if !chain.contains(master.name) {
-        let mend = format!(
+        let help = format!(
             "give the position of {} as `arm.lock.{}`, or that of {} as `arm.lock.{}`",
             master.name, master.name, joint.name, joint.name
         );
-        place.fault(faults, format!("follows {:?}, which is off the chain to the tip", master.name), mend);
+        place.fault(faults, format!("follows {:?}, which is off the chain to the tip", master.name), help);
         return None;
     }
     if !on_chain {
@@ -74,7 +74,7 @@ fn followed<'a>(
     element: &Element,
     all: &BTreeMap<&str, &'a Joint<'a>>,
     spec: &ArmSpec,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) -> Option<(&'a Joint<'a>, Follow<'a>)> {
     let (mut own, mut element) = (joint, element.clone());
     let (mut multiplier, mut offset) = (1.0, 0.0);
@@ -92,8 +92,8 @@ fn followed<'a>(
         };
         let Some(&master) = all.get(name.value.as_str()) else {
             let problem = format!("is {:?}, which is not a joint", name.value);
-            let mend = "name the joint that it follows, or hold this one by `arm.lock`";
-            place.at("joint").on(name.line).fault(faults, problem, mend);
+            let help = "name the joint that it follows, or hold this one by `arm.lock`";
+            place.at("joint").on(name.line).fault(faults, problem, help);
             return None;
         };
         (multiplier, offset) = (multiplier * factor?, multiplier * shift? + offset);

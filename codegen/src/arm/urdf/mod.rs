@@ -22,7 +22,7 @@ use self::robot::{Link, Robot};
 use self::tree::{Role, Tree};
 use super::place::Place;
 use super::{Arm, Body, GRAVITY, Joint, JointKind, MOST_JOINTS, Transform, linkage};
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::load::Named;
 use crate::spec::ArmSpec;
 
@@ -34,7 +34,7 @@ pub(super) fn build(
     spec: &ArmSpec,
     angle: f64,
     named: &Named,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
     warnings: &mut Vec<String>,
 ) -> Option<Arm> {
     let before = faults.count();
@@ -54,8 +54,8 @@ pub(super) fn build(
     }
     let text = match encoding::text(bytes) {
         Ok(text) => text,
-        Err(encoding::Unreadable { line, problem, mend }) => {
-            faults.push_at(file, line, "", problem, mend);
+        Err(encoding::Unreadable { line, problem, help }) => {
+            faults.push_at(file, line, "", problem, help);
             return None;
         }
     };
@@ -96,7 +96,7 @@ struct Source<'a> {
 
 impl Source<'_> {
     /// Walks the tree from its root and gathers on each moving joint what it carries.
-    fn assemble(&self, tree: &Tree<'_>, faults: &mut Faults, warnings: &mut Vec<String>) -> Option<Arm> {
+    fn assemble(&self, tree: &Tree<'_>, faults: &mut Diagnostics, warnings: &mut Vec<String>) -> Option<Arm> {
         let angle = self.angle;
         let mut seats: BTreeMap<&str, Seat> = BTreeMap::from([(tree.root, (None, Transform::IDENTITY))]);
         let mut joints: Vec<Moving<'_>> = Vec::new();
@@ -159,8 +159,8 @@ impl Source<'_> {
         if moving == 0 || joints.len() > MOST_JOINTS {
             let problem =
                 format!("leaves {} movable joints between {} and {}", joints.len(), tree.root, tree.tip);
-            let mend = format!("choose `arm.tip` and `arm.lock` so that 1 to {MOST_JOINTS} remain");
-            faults.push("arm.urdf", problem, mend);
+            let help = format!("choose `arm.tip` and `arm.lock` so that 1 to {MOST_JOINTS} remain");
+            faults.push("arm.urdf", problem, help);
             return None;
         }
         let (_, tip) = *seats.get(tree.tip)?;
@@ -170,7 +170,7 @@ impl Source<'_> {
 
 /// Tells what is wrong with a link that no moving joint carries: it does not matter to the arm.
 fn idle(link: &Link<'_>, warnings: &mut Vec<String>) {
-    let mut faults = Faults::of(Path::new(""));
+    let mut faults = Diagnostics::of(Path::new(""));
     let mut odd = Vec::new();
     body(link, 0.0, &mut faults, &mut odd);
     for fault in faults.list() {
@@ -184,7 +184,7 @@ fn idle(link: &Link<'_>, warnings: &mut Vec<String>) {
 }
 
 /// The arm of `joints`, each with its place, of which some may follow others.
-fn coupled(joints: Vec<Moving<'_>>, tip: Transform, faults: &mut Faults) -> Option<Arm> {
+fn coupled(joints: Vec<Moving<'_>>, tip: Transform, faults: &mut Diagnostics) -> Option<Arm> {
     let places: Vec<Place> = joints.iter().map(|moving| moving.place.clone()).collect();
     let names: Vec<String> = joints.iter().map(|moving| moving.joint.name.clone()).collect();
     let follows = |follow: Follow<'_>| {
@@ -199,18 +199,18 @@ fn coupled(joints: Vec<Moving<'_>>, tip: Transform, faults: &mut Faults) -> Opti
         Ok(arm) => {
             let empty = |limits: Option<[f64; 2]>| limits.is_some_and(|[low, high]| low >= high);
             if let Some(joint) = arm.joints.iter().find(|joint| empty(joint.limits.position)) {
-                let mend =
+                let help =
                     format!("correct the limits, or write `arm.joints.{}.limits.position`", joint.name);
                 let problem =
                     format!("leaves {} no room within the limits of the joints that follow it", joint.name);
-                faults.push("arm.urdf", problem, mend);
+                faults.push("arm.urdf", problem, help);
                 return None;
             }
             Some(arm)
         }
-        Err(linkage::Unsupported { joint, problem, mend }) => {
+        Err(linkage::Unsupported { joint, problem, help }) => {
             let place = places.get(joint).map(|place| place.at("mimic"));
-            place.unwrap_or_else(|| Place::new(faults.file(), "arm.urdf")).fault(faults, problem, mend);
+            place.unwrap_or_else(|| Place::new(faults.file(), "arm.urdf")).fault(faults, problem, help);
             None
         }
     }

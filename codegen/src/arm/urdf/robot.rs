@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::super::place::Place;
 use super::xml::Element;
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::load::plain;
 use crate::spec::JointKind;
 
@@ -101,7 +101,7 @@ const READ: [&str; 12] = [
 
 impl<'a> Robot<'a> {
     /// The robot of the root element; `None` where it is none or two things have one name.
-    pub fn read(root: &'a Element, file: &Path, faults: &mut Faults) -> Option<Self> {
+    pub fn read(root: &'a Element, file: &Path, faults: &mut Diagnostics) -> Option<Self> {
         let before = faults.count();
         let whole = Place::new(file, "");
         if root.name != "robot" {
@@ -110,8 +110,8 @@ impl<'a> Robot<'a> {
             return None;
         }
         if let Some(line) = root.children.iter().find_map(macros) {
-            let mend = "expand it first: `xacro arm.xacro > arm.urdf`, and name the result";
-            whole.on(line).fault(faults, "holds xacro macros, which are not URDF", mend);
+            let help = "expand it first: `xacro arm.xacro > arm.urdf`, and name the result";
+            whole.on(line).fault(faults, "holds xacro macros, which are not URDF", help);
             return None;
         }
         let links: Vec<Link<'_>> = root
@@ -150,7 +150,7 @@ fn named<'a>(
     element: &'a Element,
     kind: &str,
     whole: &Place,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) -> Option<(&'a str, Place)> {
     let Some(name) = element.attribute("name") else {
         let place = whole.at(kind).at("name").on(element.line);
@@ -165,14 +165,14 @@ fn named<'a>(
     let length = name.value.chars().count();
     if length > LONGEST_NAME {
         let place = whole.at(kind).at("name").on(name.line);
-        let mend = format!("write at most {LONGEST_NAME}: it stands in messages and in the module");
-        place.fault(faults, format!("has {length} characters"), mend);
+        let help = format!("write at most {LONGEST_NAME}: it stands in messages and in the module");
+        place.fault(faults, format!("has {length} characters"), help);
         return None;
     }
     Some((&name.value, whole.at(&format!("{kind}[{}]", name.value)).on(element.line)))
 }
 
-fn joint<'a>(element: &'a Element, whole: &Place, faults: &mut Faults) -> Option<Joint<'a>> {
+fn joint<'a>(element: &'a Element, whole: &Place, faults: &mut Diagnostics) -> Option<Joint<'a>> {
     let (name, place) = named(element, "joint", whole, faults)?;
     let words = || KINDS.map(|(word, _)| word).join(", ");
     let kind = match element.attribute("type") {
@@ -204,7 +204,7 @@ fn joint<'a>(element: &'a Element, whole: &Place, faults: &mut Faults) -> Option
     Some(Joint { name, kind: kind?, parent: parent?, child: child?, element, place })
 }
 
-fn unique<'a>(named: impl Iterator<Item = (&'a str, &'a Place)>, faults: &mut Faults) {
+fn unique<'a>(named: impl Iterator<Item = (&'a str, &'a Place)>, faults: &mut Diagnostics) {
     let mut seen: BTreeMap<&str, &Place> = BTreeMap::new();
     for (name, place) in named {
         if let Some(first) = seen.get(name) {
@@ -218,7 +218,7 @@ fn unique<'a>(named: impl Iterator<Item = (&'a str, &'a Place)>, faults: &mut Fa
 
 /// The number `name` of `element`; `None` where it is missing, and after a fault where it is no number. `place` is the
 /// element's.
-pub(super) fn number(element: &Element, name: &str, place: &Place, faults: &mut Faults) -> Option<f64> {
+pub(super) fn number(element: &Element, name: &str, place: &Place, faults: &mut Diagnostics) -> Option<f64> {
     let attribute = element.attribute(name)?;
     let value = attribute.value.trim().parse().ok();
     if value.is_none() {
@@ -229,7 +229,12 @@ pub(super) fn number(element: &Element, name: &str, place: &Place, faults: &mut 
 }
 
 /// The same, after a fault also where it is missing.
-pub(super) fn required(element: &Element, name: &str, place: &Place, faults: &mut Faults) -> Option<f64> {
+pub(super) fn required(
+    element: &Element,
+    name: &str,
+    place: &Place,
+    faults: &mut Diagnostics,
+) -> Option<f64> {
     if element.attribute(name).is_none() {
         place.at(name).on(element.line).fault(faults, "is missing", "write a number");
     }
@@ -242,15 +247,15 @@ pub(super) fn triple(
     name: &str,
     otherwise: [f64; 3],
     place: &Place,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) -> Option<[f64; 3]> {
     let Some(attribute) = element.attribute(name) else { return Some(otherwise) };
     let numbers: Option<Vec<f64>> =
         attribute.value.split_whitespace().map(|number| number.parse().ok()).collect();
     let triple = numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
     if triple.is_none() {
-        let mend = "write three numbers separated by spaces";
-        place.at(name).on(attribute.line).fault(faults, format!("is {:?}", attribute.value), mend);
+        let help = "write three numbers separated by spaces";
+        place.at(name).on(attribute.line).fault(faults, format!("is {:?}", attribute.value), help);
     }
     triple
 }

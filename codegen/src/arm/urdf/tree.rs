@@ -6,7 +6,7 @@ use std::path::Path;
 use super::super::place::Place;
 use super::mimic::{self, Follow};
 use super::robot::{Joint, Kind, Robot};
-use crate::error::Faults;
+use crate::error::Diagnostics;
 use crate::spec::ArmSpec;
 
 /// What a joint does in the arm.
@@ -37,7 +37,7 @@ pub(super) fn tree<'a>(
     robot: &'a Robot<'a>,
     spec: &'a ArmSpec,
     file: &Path,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) -> Option<Tree<'a>> {
     let before = faults.count();
     let whole = Place::new(file, "");
@@ -65,14 +65,14 @@ pub(super) fn tree<'a>(
 fn carriers<'a>(
     robot: &'a Robot<'a>,
     links: &BTreeSet<&str>,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) -> BTreeMap<&'a str, &'a Joint<'a>> {
     let mut out: BTreeMap<&str, &Joint<'_>> = BTreeMap::new();
     for joint in &robot.joints {
         for (end, link) in [("parent", joint.parent), ("child", joint.child)] {
             if !links.contains(link) {
-                let mend = format!("name one of the links {}", list(links.iter().copied()));
-                joint.place.at(end).fault(faults, format!("is {link:?}, which is not a link"), mend);
+                let help = format!("name one of the links {}", list(links.iter().copied()));
+                joint.place.at(end).fault(faults, format!("is {link:?}, which is not a link"), help);
             }
         }
         if let Some(other) = out.insert(joint.child, joint) {
@@ -87,7 +87,7 @@ fn root<'a>(
     robot: &'a Robot<'a>,
     carrier: &BTreeMap<&str, &Joint<'_>>,
     whole: &Place,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) -> Option<&'a str> {
     let roots: Vec<&str> =
         robot.links.iter().map(|l| l.name).filter(|name| !carrier.contains_key(name)).collect();
@@ -125,12 +125,12 @@ fn tip<'a>(
     spec: &'a ArmSpec,
     links: &BTreeSet<&str>,
     file: &Path,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) -> Option<&'a str> {
     if let Some(tip) = &spec.tip {
         if !links.contains(tip.as_str()) {
-            let mend = format!("name one of the links {}", list(links.iter().copied()));
-            faults.push("arm.tip", format!("is {tip:?}, which is not a link of {}", file.display()), mend);
+            let help = format!("name one of the links {}", list(links.iter().copied()));
+            faults.push("arm.tip", format!("is {tip:?}, which is not a link of {}", file.display()), help);
             return None;
         }
         return Some(tip);
@@ -164,15 +164,15 @@ fn roles<'a>(
     chain: &BTreeSet<&str>,
     spec: &ArmSpec,
     file: &Path,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) -> Vec<(&'a Joint<'a>, Role<'a>)> {
     let movable: Vec<&str> = ordered.iter().filter(|j| j.kind != Kind::Fixed).map(|j| j.name).collect();
     for name in spec.lock.keys().filter(|name| !movable.contains(&name.as_str())) {
-        let mend = format!("name one of the movable joints {}", list(movable.iter().copied()));
+        let help = format!("name one of the movable joints {}", list(movable.iter().copied()));
         faults.push(
             format!("arm.lock.{name}"),
             format!("is not a movable joint of {}", file.display()),
-            mend,
+            help,
         );
     }
     let all: BTreeMap<&str, &Joint<'_>> = ordered.iter().map(|joint| (joint.name, *joint)).collect();
@@ -195,8 +195,8 @@ fn roles<'a>(
         .map(|(j, _)| j.name)
         .collect();
     for name in spec.joints.keys().filter(|name| !moving.contains(&name.as_str())) {
-        let mend = format!("name one of {}", list(moving.iter().copied()));
-        faults.push(format!("arm.joints.{name}"), "is not a joint of the arm", mend);
+        let help = format!("name one of {}", list(moving.iter().copied()));
+        faults.push(format!("arm.joints.{name}"), "is not a joint of the arm", help);
     }
     out
 }
@@ -208,7 +208,7 @@ fn role<'a>(
     all: &BTreeMap<&str, &'a Joint<'a>>,
     chain: &BTreeSet<&str>,
     spec: &ArmSpec,
-    faults: &mut Faults,
+    faults: &mut Diagnostics,
 ) -> Option<Role<'a>> {
     let lock = spec.lock.get(joint.name).copied();
     match (joint.kind, joint.kind.moving(), lock) {
@@ -216,17 +216,17 @@ fn role<'a>(
         (_, None, Some(0.0)) => Some(Role::Welded(0.0)),
         (_, None, Some(position)) => {
             let problem = format!("is {position}, and the joint is {}", joint.kind.name());
-            let mend = "write 0: such a joint is held where the file places it";
-            faults.push(format!("arm.lock.{}", joint.name), problem, mend);
+            let help = "write 0: such a joint is held where the file places it";
+            faults.push(format!("arm.lock.{}", joint.name), problem, help);
             None
         }
         (_, None, None) => {
-            let mend = format!(
+            let help = format!(
                 "an arm takes revolute, continuous and prismatic joints; make it one of these or fixed, or write 0 \
                  as `arm.lock.{}` to hold it where it is",
                 joint.name
             );
-            joint.place.at("type").fault(faults, format!("is {}", joint.kind.name()), mend);
+            joint.place.at("type").fault(faults, format!("is {}", joint.kind.name()), help);
             None
         }
         (_, Some(_), Some(position)) => Some(Role::Welded(position)),

@@ -10,7 +10,7 @@ use quick_xml::{Reader, escape};
 
 use super::super::place::Place;
 use super::encoding;
-use crate::error::Faults;
+use crate::error::Diagnostics;
 
 /// Most elements around one another; robot files have about ten.
 const MOST_DEPTH: usize = 100;
@@ -55,7 +55,7 @@ impl Element {
     }
 
     /// The element `name` directly inside this one, after a fault where there are several; `place` is this element's.
-    pub fn one(&self, name: &str, place: &Place, faults: &mut Faults) -> Option<&Self> {
+    pub fn one(&self, name: &str, place: &Place, faults: &mut Diagnostics) -> Option<&Self> {
         let first = self.children.iter().find(|child| child.name == name)?;
         for other in self.all(name).skip(1) {
             let problem = format!("stands twice, first in line {}", first.line);
@@ -66,13 +66,13 @@ impl Element {
 }
 
 /// The root element of `text`; `None` after a fault.
-pub(super) fn read(text: &str, file: &Path, faults: &mut Faults) -> Option<Element> {
+pub(super) fn read(text: &str, file: &Path, faults: &mut Diagnostics) -> Option<Element> {
     match Parser::new(text).root() {
         Ok(root) => Some(root),
         Err(wrong) => {
             let place = Place::new(file, "");
             let place = wrong.line.map_or(place.clone(), |line| place.on(line));
-            place.fault(faults, wrong.problem, wrong.mend);
+            place.fault(faults, wrong.problem, wrong.help);
             None
         }
     }
@@ -82,7 +82,7 @@ pub(super) fn read(text: &str, file: &Path, faults: &mut Faults) -> Option<Eleme
 struct Wrong {
     line: Option<usize>,
     problem: String,
-    mend: &'static str,
+    help: &'static str,
 }
 
 struct Parser<'a> {
@@ -115,7 +115,7 @@ impl<'a> Parser<'a> {
                         return Err(Wrong {
                             line: Some(self.line(at)),
                             problem: format!("nests more than {MOST_DEPTH} elements"),
-                            mend: "give a URDF file; robots are described in about ten levels",
+                            help: "give a URDF file; robots are described in about ten levels",
                         });
                     }
                 }
@@ -141,12 +141,12 @@ impl<'a> Parser<'a> {
         if let Some(element) = self.open.last() {
             let (line, name) = (element.line, element.name.clone());
             let problem = format!("is not a URDF file that can be read (<{name}> is not closed)");
-            return Err(Wrong { line: Some(line), problem, mend: "close the element" });
+            return Err(Wrong { line: Some(line), problem, help: "close the element" });
         }
         self.root.ok_or(Wrong {
             line: None,
             problem: "has no XML element".into(),
-            mend: "give a URDF file, whose root is <robot>",
+            help: "give a URDF file, whose root is <robot>",
         })
     }
 
@@ -155,7 +155,7 @@ impl<'a> Parser<'a> {
         let line = self.line(at);
         if self.elements > MOST_ELEMENTS {
             let problem = format!("has more than {MOST_ELEMENTS} elements");
-            return Err(Wrong { line: Some(line), problem, mend: "give the URDF file of one arm" });
+            return Err(Wrong { line: Some(line), problem, help: "give the URDF file of one arm" });
         }
         let mut attributes = Vec::new();
         for attribute in tag.attributes() {
@@ -209,7 +209,7 @@ impl<'a> Parser<'a> {
         Wrong {
             line: Some(self.line(at)),
             problem: format!("is not a URDF file that can be read ({what})"),
-            mend: "mend the XML there",
+            help: "mend the XML there",
         }
     }
 }

@@ -34,15 +34,16 @@ pub(super) fn range(parts: &[Part], limits: &[[f64; 2]], stop: &Stop) -> Range {
     let mut order: Vec<usize> = (0..parts.len()).collect();
     order.sort_by(|&a, &b| caps[a].total_cmp(&caps[b]).then(a.cmp(&b)));
     let mut dust = 0.0;
-    let mut dropped = BTreeSet::new();
+    let mut simplified_arm = BTreeSet::new();
     for part in order {
         if dust + caps[part] > DUST * ceiling {
             break;
         }
         dust += caps[part];
-        dropped.insert(part);
+        simplified_arm.insert(part);
     }
-    let seen = parts.iter().enumerate().filter(|(part, _)| !dropped.contains(part)).map(|(_, part)| part);
+    let seen =
+        parts.iter().enumerate().filter(|(part, _)| !simplified_arm.contains(part)).map(|(_, part)| part);
     let search = Search::new(Sum::new(seen), limits);
     let range = search.run(&Stop { limit: stop.limit.map(|limit| limit - dust), ..*stop });
     Range { found: range.found, upper: ((range.upper + dust) * MORE).min(ceiling) }
@@ -73,9 +74,10 @@ struct Front {
 
 impl<'a> Search<'a> {
     fn new(sum: Sum, limits: &'a [[f64; 2]]) -> Self {
-        let reach = limits.iter().flatten().fold(1.0_f64, |most, q| most.max(q.abs()));
+        let position_bound = limits.iter().flatten().fold(1.0_f64, |most, q| most.max(q.abs()));
         // A term holds at most the fourth power of prismatic coordinates.
-        let rounding = ENCLOSURE * sum.size * (reach * reach) * (reach * reach);
+        let rounding =
+            ENCLOSURE * sum.size * (position_bound * position_bound) * (position_bound * position_bound);
         Self { sum, limits, rounding }
     }
 

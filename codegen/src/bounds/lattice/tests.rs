@@ -1,15 +1,15 @@
 use super::{Cell, MAX_VARIABLES, Part, Range, Stop, edge, folded, range};
 use crate::bounds::polynomial::Polynomial;
 use crate::bounds::residual::Residual;
+use crate::domain::Domain;
 use crate::lagrangian::{Function, MAX_JOINTS};
-use crate::measure::Domain;
-use crate::spread::{Spread, in_box};
+use crate::numerics::low_discrepancy::{LowDiscrepancy, in_box};
 
 const LIMITS: [[f64; 2]; 4] = [[-2.0, 1.5], [-3.0, 3.0], [-0.4, 0.7], [-1.0, 2.5]];
 
 /// Seven sums over three revolute joints and a prismatic one; the first depends on one joint, the last on none.
 fn sums() -> Vec<Vec<(Function, f64)>> {
-    let spread = Spread::new(7);
+    let spread = LowDiscrepancy::new(7);
     let term = |index: usize| {
         let u = spread.point(index);
         let pick = |x: f64| -2 + (x * 5.0) as i8;
@@ -39,9 +39,9 @@ fn weighted(sums: &[Vec<(Function, f64)>], q: &[f64]) -> f64 {
 
 fn bounded(stop: &Stop) -> Range {
     let domain = Domain::Workspace(LIMITS.to_vec());
-    let reach: Vec<f64> = LIMITS.iter().map(|[low, high]| low.abs().max(high.abs())).collect();
+    let position_bound: Vec<f64> = LIMITS.iter().map(|[low, high]| low.abs().max(high.abs())).collect();
     let residual = |terms: &Vec<(Function, f64)>| {
-        Residual::new(Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k))), &domain, None, &reach)
+        Residual::new(Polynomial::new(terms.iter().map(|(psi, k)| (psi, *k))), &domain, &position_bound)
     };
     let all: Vec<Residual> = sums().iter().map(residual).collect();
     let part = |range: std::ops::Range<usize>, multiplier: f64| Part {
@@ -56,7 +56,7 @@ fn bounded(stop: &Stop) -> Range {
 
 /// The largest value that dense points, sides among them, and single-joint climbs from the best of them find.
 fn found() -> f64 {
-    let (sums, spread) = (sums(), Spread::new(4));
+    let (sums, spread) = (sums(), LowDiscrepancy::new(4));
     let side = |u: &f64| (0.5 + 1.4 * (u - 0.5)).clamp(0.0, 1.0);
     let point = |index: usize| in_box(&LIMITS, &spread.point(index).iter().map(side).collect::<Vec<_>>());
     let mut starts: Vec<(f64, Vec<f64>)> = (0..40_000).map(point).map(|q| (weighted(&sums, &q), q)).collect();

@@ -16,36 +16,36 @@ pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
             view.functions, view.coefficients, view.terms
         ),
     ];
-    if let Some(linkage) = &generation.arm.linkage {
-        lines.push(format!("followers: {}", linkage.equations(&generation.arm).join(", ")));
+    if let Some(linkage) = &generation.arm().linkage {
+        lines.push(format!("followers: {}", linkage.equations(generation.arm()).join(", ")));
     }
     for (number, psi) in (1..).zip(&view.selected) {
         lines.push(format!("  psi_{number} = {psi}"));
     }
-    if let Some(dropped) = &generation.reduced.dropped {
-        lines.push(format!("a simpler arm, without {}", dropped.lost()));
+    if let Some(simplified_arm) = generation.reduced().simplified_arm() {
+        lines.push(format!("a simpler arm, without {}", simplified_arm.lost()));
     }
     let cost = |o: &Operations| format!("{} mul, {} add, {} sin-cos pairs", o.mul, o.add, o.trig_pairs);
     lines.push(format!("emitted ({}): {}", view.form, cost(&view.operations.reduced)));
     lines.push(format!("exact:   {}", cost(&view.operations.exact)));
     lines.push(format!("module:  {} bytes", view.size));
     lines.push(format!("verdict: {}", view.verdict));
-    let bounded = !generation.reduced.is_exact() || !generation.code.sines.rounds();
+    let bounded = !generation.reduced().is_exact() || !generation.code().sines.rounds();
     if bounded {
         let largest = |values: &mut dyn Iterator<Item = &f64>| values.fold(0.0_f64, |a, &b| a.max(b));
         lines.push(format!(
             "bounds ({}) over {}: dD <= {}, dh <= {}, dG <= {}",
             view.bounds.kind,
-            domain_in_words(&generation.domain),
+            domain_in_words(generation.domain()),
             printed_up(largest(&mut view.bounds.D.iter().flatten())),
             printed_up(largest(&mut view.bounds.H.iter().flatten().flatten())),
             printed_up(largest(&mut view.bounds.G.iter())),
         ));
     }
-    if let Some(torque) = generation.torque.as_ref() {
+    if let Some(torque) = generation.torque() {
         lines.push(torque_in_words(torque));
         lines.push(rates_in_words(torque));
-        lines.push(met_in_words(generation.met.as_ref(), generation.design.is_some()));
+        lines.push(met_in_words(generation.met(), generation.design().is_some()));
     }
     for p in &view.uncertainty {
         lines.push(format!("uncertain: {} in [{}, {}], here {}", p.name, p.low, p.high, p.nominal));

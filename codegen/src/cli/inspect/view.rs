@@ -5,15 +5,17 @@ use super::{
     RangeView, RatesView,
 };
 use crate::bounds::{Bounds, Effort, Rates, estimate, factor_bounds, worst_ratio};
-use crate::design::Envelope;
+use crate::control::Envelope;
+use crate::domain::Domain;
 use crate::emit::functions;
-use crate::measure::Domain;
 use crate::pipeline::{Generation, dictionary};
 use crate::spec::MatrixSpec;
 
 /// `size` is that of the module, bytes.
 pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
-    let Generation { arm, lagrangian, reduced, bounds, code, exact_code, design, .. } = generation;
+    let (arm, lagrangian, reduced) = (generation.arm(), generation.lagrangian(), generation.reduced());
+    let (bounds, code, exact_code) = (generation.bounds(), generation.code(), generation.exact_code());
+    let design = generation.design();
     let operations = Costs { reduced: code.operations(), exact: exact_code.operations() };
     let control = design.as_ref().map(|design| {
         let Envelope { v_max, level, position_error, velocity_error, speed } = &design.envelope;
@@ -44,7 +46,7 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
             inertia_certified: promised.inertia.certified,
         }
     });
-    let uncertainty = generation.uncertainty.parameters.iter().map(|p| RangeView {
+    let uncertainty = generation.uncertainty().parameters.iter().map(|p| RangeView {
         name: &p.name,
         nominal: p.nominal,
         low: p.nominal + p.low,
@@ -53,15 +55,15 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
     Inspection {
         uncertainty: uncertainty.collect(),
         adaptation: adaptation(generation),
-        name: &generation.loaded.spec.name,
+        name: &generation.spec().name,
         joints: arm.dof(),
         joint_names: arm.joints.iter().map(|joint| joint.name.as_str()).collect(),
         functions: lagrangian.functions.len(),
-        candidates: dictionary(&generation.loaded.spec).functions(lagrangian).len(),
+        candidates: dictionary(generation.spec()).functions(lagrangian).len(),
         coefficients: lagrangian.coefficients.len(),
         terms: lagrangian.terms(),
         selected: functions(lagrangian, reduced),
-        dropped: reduced.dropped.as_ref().map_or(&[], |dropped| &dropped.parameters),
+        simplified_arm: reduced.simplified_arm().map_or(&[], |simplified_arm| &simplified_arm.parameters),
         bounds: BoundsView {
             kind: "certified",
             D: &bounds.d,
@@ -69,23 +71,23 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
             G: &bounds.g,
             B: diagonal(&bounds.b),
             C: design.as_ref().map(|design| design.delta_c.as_slice()),
-            worst_ratio: worst_ratio(lagrangian, &generation.certificates),
+            worst_ratio: worst_ratio(lagrangian, generation.certificates()),
             estimate: estimated(generation),
             factor: by_factor(generation),
         },
-        torque_error: generation.torque.as_ref().map(|torque| torque.error.clone()),
-        peak_torque: generation.torque.as_ref().map(|torque| torque.peak.clone()),
-        torque_rates: generation.torque.as_ref().map(|torque| rates(&torque.rates)),
-        torque_error_of_law: generation.met.as_ref().map(|met| met.error.as_slice()),
-        law_rates: generation.met.as_ref().map(|met| rates(&met.rates)),
-        domain: domain_view(&generation.domain),
-        form: generation.form.name(),
+        torque_error: generation.torque().map(|torque| torque.error.clone()),
+        peak_torque: generation.torque().map(|torque| torque.peak.clone()),
+        torque_rates: generation.torque().map(|torque| rates(&torque.rates)),
+        torque_error_of_law: generation.met().map(|met| met.error.as_slice()),
+        law_rates: generation.met().map(|met| rates(&met.rates)),
+        domain: domain_view(generation.domain()),
+        form: generation.form().name(),
         verdict: generation.verdict(),
         operations,
         size,
         control,
         guarantee,
-        warnings: &generation.warnings,
+        warnings: generation.warnings(),
     }
 }
 
@@ -95,11 +97,11 @@ fn rates(rates: &Rates) -> RatesView<'_> {
 }
 
 fn adaptation(generation: &Generation) -> Option<AdaptationView<'_>> {
-    let adaptation = generation.design.as_ref()?.adaptation.as_ref()?;
-    let regressor = generation.regressor.as_ref()?;
+    let adaptation = generation.design()?.adaptation.as_ref()?;
+    let regressor = generation.regressor()?;
     let mut operations = regressor.code.operations();
     if regressor.own_base {
-        let own = generation.code.operations();
+        let own = generation.code().operations();
         operations.mul += own.mul;
         operations.add += own.add;
         operations.trig_pairs = operations.trig_pairs.max(own.trig_pairs);
@@ -120,25 +122,25 @@ fn diagonal(values: &[f64]) -> Vec<Vec<f64>> {
 }
 
 fn estimated(generation: &Generation) -> Option<EstimateView> {
-    let Generation { lagrangian, reduced, domain, motion, .. } = generation;
-    let deltas = estimate(lagrangian, reduced, domain, motion.as_ref())?;
+    let lagrangian = generation.lagrangian();
+    let deltas = estimate(lagrangian, generation.reduced(), generation.domain())?;
     let Bounds { d, h, g, .. } = Bounds::new(lagrangian, &deltas);
     Some(EstimateView { D: d, H: h, G: g })
 }
 
 fn by_factor(generation: &Generation) -> Option<EstimateView> {
-    let Generation { lagrangian, reduced, uncertainty, domain, motion, regression, .. } = generation;
-    regression.as_ref()?;
-    let motion = motion.as_ref();
-    let deltas = factor_bounds(lagrangian, reduced, uncertainty, domain, motion, &Effort::default());
+    let (lagrangian, uncertainty) = (generation.lagrangian(), generation.uncertainty());
+    generation.regression()?;
+    let (reduced, domain) = (generation.reduced(), generation.domain());
+    let deltas = factor_bounds(lagrangian, reduced, uncertainty, domain, &Effort::default());
     let Bounds { d, h, g, .. } = Bounds::new(lagrangian, &deltas);
     Some(EstimateView { D: d, H: h, G: g })
 }
 
 fn domain_view(domain: &Domain) -> DomainView {
     let (kind, position_error, position) = match domain {
-        Domain::Trajectory => ("trajectory", None, None),
-        Domain::Tube(errors) => ("tube", Some(errors.clone()), None),
+        Domain::Path(_) => ("trajectory", None, None),
+        Domain::Tube(_, errors) => ("tube", Some(errors.clone()), None),
         Domain::Workspace(limits) => ("workspace", None, Some(limits.clone())),
     };
     DomainView { kind, position_error, position }

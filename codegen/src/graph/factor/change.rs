@@ -11,7 +11,7 @@ pub(super) enum Change {
     /// Take an atom out of the terms of a sum that have it.
     Factor(Atom, Atom),
     /// Take a constant (its bits) out.
-    Scale(Atom, u64),
+    TorqueScale(Atom, u64),
     /// Compute the product of two atoms once.
     Product(Atom, Atom),
     /// Compute a constant multiple once.
@@ -49,7 +49,7 @@ impl System {
                 }
                 if term.coefficient.abs() != 1.0 && !term.factors.is_empty() {
                     let bits = term.coefficient.abs().to_bits();
-                    *within.entry(Change::Scale(index, bits)).or_default() += 1;
+                    *within.entry(Change::TorqueScale(index, bits)).or_default() += 1;
                 }
                 let mut seen = Vec::new();
                 for (at, &a) in term.factors.iter().enumerate() {
@@ -94,7 +94,7 @@ impl System {
                 },
                 &Term { coefficient: 1.0, factors: vec![*factor] },
             ),
-            Change::Scale(index, bits) => {
+            Change::TorqueScale(index, bits) => {
                 let constant = f64::from_bits(*bits);
                 self.take_out(
                     *index,

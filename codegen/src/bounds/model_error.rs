@@ -1,0 +1,167 @@
+//! What an emitted model leaves out: certificates, bounds, torque.
+
+use super::{
+    Bounds, Certificate, Effort, Met, Rates, Torque, TorqueScale, certified_telling, percent_up,
+    position_bound, published, recursion, recursion_rounding, torque_error, vanishing, with_sines,
+};
+use crate::arm::{Arm, Uncertainty};
+use crate::domain::Domain;
+use crate::lagrangian::Lagrangian;
+use crate::load::Loaded;
+use crate::number::percent;
+use crate::progress::Progress;
+use crate::reduction::Reduced;
+use crate::spec::Spec;
+use crate::torque::Form;
+use crate::trig::Trig;
+
+/// Where the torque error alone is what counts, no single coefficient is worth more boxes and more starts of a search.
+const BOXES: usize = 2000;
+const STARTS: usize = 4;
+
+/// What bounds follow from.
+pub(crate) struct ModelError<'a> {
+    pub loaded: &'a Loaded,
+    pub arm: &'a Arm,
+    pub uncertainty: &'a Uncertainty,
+    pub lagrangian: &'a Lagrangian,
+    pub reduced: &'a Reduced,
+    pub domain: &'a Domain,
+    pub form: Form,
+    pub sines: &'a Trig,
+    /// What rounding the arm's rotations has changed.
+    pub angles: Option<&'a Bounds>,
+}
+
+impl ModelError<'_> {
+    /// A certificate for each coefficient, and the bounds that follow.
+    pub fn bounds(&self, effort: &Effort, progress: &dyn Progress) -> (Vec<Certificate>, Bounds) {
+        let Self { lagrangian, reduced, domain, sines, .. } = *self;
+        let Spec { model, control, .. } = &self.loaded.spec;
+        // A switching gain is made of the bounds themselves.
+        let switches = control.as_ref().is_some_and(|control| control.law.is_robust());
+        let effort = match model.tolerance() {
+            Some(_) if !switches => {
+                Effort { boxes: effort.boxes.min(BOXES), starts: effort.starts.min(STARTS), ..*effort }
+            }
+            _ => *effort,
+        };
+        let certificates = certified_telling(lagrangian, reduced, domain, &effort, progress);
+        let (mut certificates, bounds) = if self.form == Form::Recursive && !sines.rounds() {
+            self.recursive(certificates)
+        } else {
+            let certificates = with_sines(certificates, lagrangian, reduced, domain, sines);
+            let bounds = Bounds::of(lagrangian, &certificates);
+            (certificates, bounds)
+        };
+        let Some(angles) = self.angles else { return (certificates, bounds) };
+        for (certificate, more) in certificates.iter_mut().zip(angles.certificates(lagrangian)) {
+            certificate.bound = (certificate.bound + more.bound).next_up();
+        }
+        (certificates, bounds.plus(angles))
+    }
+
+    /// Those of the plain recursion with sines off by more than rounding: what they do to it, and what uncertain
+    /// parameters do, which is what the `certificates` given say.
+    fn recursive(&self, certificates: Vec<Certificate>) -> (Vec<Certificate>, Bounds) {
+        let Self { lagrangian, reduced, domain, sines, .. } = *self;
+        // Only what a law learns is in expanded form.
+        let learnt =
+            Reduced { combinations: vec![Vec::new(); reduced.combinations.len()], ..reduced.clone() };
+        let certificates = with_sines(certificates, lagrangian, &learnt, domain, sines);
+        let own = recursion(self.arm, &position_bound(domain), sines.error);
+        let bounds = Bounds::of(lagrangian, &certificates).plus(&own);
+        let add = |(mut certificate, more): (Certificate, Certificate)| {
+            certificate.bound = (certificate.bound + more.bound).next_up();
+            certificate.sines = (certificate.sines + more.bound).next_up();
+            certificate
+        };
+        (certificates.into_iter().zip(own.certificates(lagrangian)).map(add).collect(), bounds)
+    }
+
+    /// What that costs in torque, rounding in f64 and of the arm's rotations included.
+    pub fn torque(&self, certificates: &[Certificate], bounds: &Bounds, scale: TorqueScale) -> Torque {
+        let known = self.uncertainty.parameters.is_empty();
+        let fraction = self.loaded.spec.model.tolerance().filter(|_| known);
+        let proved = fraction.map(|fraction| scale.limits(fraction));
+        let error = self.error(certificates, bounds, &scale.rates, proved);
+        Torque { error, peak: scale.peak, rates: scale.rates }
+    }
+
+    /// The same at the rates that a law meets.
+    pub fn met(&self, certificates: &[Certificate], bounds: &Bounds, rates: &Rates) -> Met {
+        Met { error: self.error(certificates, bounds, rates, None), rates: rates.clone() }
+    }
+
+    /// Bounds by joint, N·m or N, for rates up to `rates`; what the choice of a model has `proved`, perhaps with more work,
+    /// is for sines within an ulp.
+    fn error(
+        &self,
+        certificates: &[Certificate],
+        bounds: &Bounds,
+        rates: &Rates,
+        proved: Option<Vec<f64>>,
+    ) -> Vec<f64> {
+        let Self { lagrangian, reduced, domain, .. } = *self;
+        let own: Vec<f64> = if self.form == Form::Recursive && reduced.is_exact() {
+            bounds.torque(rates)
+        } else {
+            let mut error = torque_error(lagrangian, reduced, domain, certificates, rates);
+            for (i, (error, limit)) in error.iter_mut().zip(proved.into_iter().flatten()).enumerate() {
+                let multipliers = rates.multipliers(lagrangian, i);
+                let sines: f64 = certificates.iter().zip(&multipliers).map(|(c, u)| c.sines * u).sum();
+                *error = error.min((limit.max(0.0) + sines).next_up());
+            }
+            let angles = self.angles.map_or_else(|| vec![0.0; error.len()], |angles| angles.torque(rates));
+            error.iter().zip(angles).map(|(error, angles)| error + angles).collect()
+        };
+        let rounding = self.rounding(rates);
+        own.iter().zip(rounding).map(|(own, rounding)| (own + rounding).next_up()).collect()
+    }
+
+    /// Rounding in f64 of what is not simplified, by joint, N·m or N; that of the rest is in its certificates.
+    fn rounding(&self, rates: &Rates) -> Vec<f64> {
+        let Self { lagrangian, reduced, domain, .. } = *self;
+        let position_bound = position_bound(domain);
+        let n = lagrangian.dof;
+        let recursion = match self.form {
+            Form::Recursive => recursion_rounding(self.arm, &position_bound).torque(rates),
+            Form::Expanded | Form::Sparse => vec![0.0; n],
+        };
+        if self.form == Form::Recursive && reduced.is_exact() {
+            return recursion;
+        }
+        let each: Vec<f64> =
+            (0..lagrangian.coefficients.len())
+                .map(|m| {
+                    if reduced.simplified[m] {
+                        0.0
+                    } else {
+                        published(lagrangian, m, reduced, &position_bound)
+                    }
+                })
+                .collect();
+        let vanishing = vanishing(lagrangian, &position_bound);
+        let of = |i: usize| -> f64 {
+            let terms = rates.multipliers(lagrangian, i).into_iter().zip(&each).map(|(u, most)| u * most);
+            let zeros = vanishing.iter().map(|&(entry, most)| rates.multiplier(entry, i) * most);
+            recursion[i] + terms.chain(zeros).sum::<f64>()
+        };
+        (0..n).map(|i| of(i).next_up()).collect()
+    }
+
+    /// What is said where a tolerance, kept by the arm as specified, is not kept by all that it may be.
+    pub fn beyond_tolerance(&self, torque: &Torque) -> Option<String> {
+        let fraction = self.loaded.spec.model.tolerance()?;
+        let more = !self.uncertainty.parameters.is_empty() && torque.fraction() > fraction;
+        more.then(|| {
+            format!(
+                "{}: model: the tolerance of {} is kept by the arm as specified; over all that is uncertain the \
+                 certified torque error is {}",
+                self.loaded.path.display(),
+                percent(100.0 * fraction),
+                percent_up(torque.fraction())
+            )
+        })
+    }
+}

@@ -1,0 +1,320 @@
+//! What is promised of the closed loop, and why not where nothing is.
+
+use super::adaptation::{Adaptation, Learning, regression};
+use super::error_envelope::{ClosedLoop, Envelope};
+use super::feedforward::Feedforward;
+use super::form::{Fastest, Form, InertiaBounds, fastest, inertia_bounds, initial_level, total};
+use super::inertia::Inertia;
+use super::limits::Longest;
+use super::region::{cells, outside, position_bound, start};
+use super::{DesignProblem, family};
+use crate::bounds::Rates;
+use crate::check::InitialError;
+use crate::error::Error;
+use crate::number;
+use crate::spec::LawSpec;
+
+/// Halvings of the interval in which the largest initial error lies.
+const HALVINGS: u32 = 30;
+/// Rounds in which the smallest sufficient tube must close.
+const ROUNDS: usize = 6;
+
+/// The promises about a closed loop without torque limits, and whether they hold.
+///
+/// They are those of the continuous law, with the lag of a torque held for one period counted to first order; a period
+/// below `period_max` keeps the sampled loop stable at every frozen D of the domain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Guarantee {
+    /// Whether q stays inside the domain of the bounds from every initial error of the specification.
+    pub holds: bool,
+    /// Why not; empty where it holds.
+    pub reasons: Vec<String>,
+    /// Longest period with T (λ_max(D⁻¹K) + λ_max(P12)) < 2 over the domain, s; K is the whole gain on s, with ΔC1, the
+    /// slope ρ/φ inside the layer and what is learnt within a period. The sign function has no slope to count: its
+    /// chatter counts in `final_error`.
+    pub period_max: f64,
+    /// What |q_e| ends below, by joint, rad or m.
+    pub final_error: Vec<f64>,
+    /// Largest initial position error for which the domain is enough, by joint, rad or m: the specification's own, or
+    /// the tube where it names none, scaled; the initial velocity error as specified.
+    pub initial_error_max: Vec<f64>,
+    /// Smallest tube that the errors never leave, by joint, rad or m, with the bounds of the present one; `None` where
+    /// none was found, or none was sought.
+    pub tube_needed: Option<Vec<f64>>,
+    /// Bounds on D over the domain.
+    pub inertia: InertiaBounds,
+}
+
+/// The bounds on D over the domain, the errors under the law, ΔC and ΔC1 that go with them, and the promises.
+pub(super) struct Judgement {
+    pub(super) envelope: Envelope,
+    pub(super) delta_c: Vec<Vec<f64>>,
+    pub(super) k_star: f64,
+    pub(super) delta_c1: Vec<Vec<f64>>,
+    /// The largest switching gain ρ, N·m or N.
+    pub(super) gain: Vec<f64>,
+    /// Whether some level of V holds it.
+    pub(super) settled: bool,
+    /// The largest rates that multiply the model while the errors stay in the envelope.
+    pub(super) rates: Rates,
+    /// The largest share of a torque limit that the first step may ask; 0 where there are none.
+    pub(super) first_step: f64,
+    pub(super) guarantee: Guarantee,
+}
+
+pub(super) struct Parts<'a> {
+    pub(super) problem: &'a DesignProblem<'a>,
+    pub(super) gains: &'a super::Gains,
+    pub(super) form: Form,
+    pub(super) disturbance: &'a [f64],
+    /// What the motion itself takes; `None` without one.
+    pub(super) feedforward: Option<&'a Feedforward>,
+    /// Coulomb friction that the command compensates.
+    pub(super) coulomb: &'a [[f64; 2]],
+    pub(super) tuning: &'a crate::check::Tuning,
+    pub(super) adaptation: Option<&'a Adaptation>,
+    /// The bounds on D, where the same gains were judged before.
+    pub(super) facts: Option<&'a InertiaBounds>,
+    /// Pass over final error, largest initial error and smallest tube, which a comparison of gains does not need.
+    pub(super) sketch: bool,
+}
+
+impl Parts<'_> {
+    pub(super) fn judge(self) -> Result<Judgement, Error> {
+        let DesignProblem { arm, domain, motion, bounds, control, lagrangian, uncertainty, .. } =
+            *self.problem;
+        let n = arm.dof();
+        let own = domain.width().unwrap_or(vec![0.0; n]);
+        let over = cells(domain, &own);
+        let wide: Vec<f64> =
+            own.iter().zip(&control.initial_error.position).map(|(a, b)| a.max(*b).max(1.0)).collect();
+        let position_bound = position_bound(&cells(domain, &wide), n);
+        let inertia = Inertia::of_family(arm, uncertainty, lagrangian, &position_bound, self.problem.angles);
+        let facts = match self.facts {
+            Some(facts) => facts.clone(),
+            None => inertia_bounds(&inertia, over.clone(), self.gains, &self.form),
+        };
+        let InitialError { position, velocity } = &control.initial_error;
+        let level = |position: &[f64]| {
+            let cell = start(domain, motion, position);
+            initial_level(&inertia, self.gains, cell, position, velocity)
+        };
+        let closed_loop = self.closed_loop(&facts, &position_bound)?;
+        let v_max = level(position);
+        let level_found = closed_loop.invariant_level(v_max, position)?;
+        let settled = level_found.is_some();
+        let mut reasons = Vec::new();
+        let envelope = match level_found {
+            Some(envelope) => envelope,
+            None => {
+                reasons.push(format!(
+                    "no level of V is found that the law keeps it below: {}",
+                    more(control.law)
+                ));
+                let (position_error, velocity_error) = closed_loop.errors(v_max, position)?;
+                let speed = closed_loop.speed.iter().zip(&velocity_error).map(|(d, e)| d + e).collect();
+                Envelope { v_max, level: v_max, position_error, velocity_error, speed }
+            }
+        };
+        let delta_c = bounds.coriolis(&envelope.speed);
+        let k_star = family::smallest_multiple(&delta_c);
+        let delta_c1 = control.delta_c1.clone().unwrap_or_else(|| family::multiple_of_identity(k_star, n));
+
+        let load = closed_loop.load(&envelope.position_error, &envelope.velocity_error, &delta_c);
+        let longest = self.longest_period(&inertia, over.clone(), &delta_c1, &closed_loop, &load.gain);
+        let period_max = longest.period;
+        let final_error = if self.sketch {
+            envelope.position_error.clone()
+        } else {
+            closed_loop.final_error(&inertia, over, &envelope, &delta_c)?
+        };
+
+        reasons.extend(self.period_reasons(facts.certified, &longest));
+        let (first_step, short) = self.drives(&closed_loop, &delta_c, &delta_c1);
+        reasons.extend(short);
+        let chatter = closed_loop.ultimate_bound(&load, true) + closed_loop.parameter_energy();
+        if control.law.is_robust() && self.layer().is_none() && chatter > envelope.level {
+            reasons.push(format!(
+                "the sign function, held for {} s, may raise V from {} J to {} J: take a boundary layer or a shorter period",
+                self.tuning.period,
+                number::short(envelope.level),
+                number::short(chatter)
+            ));
+        }
+        let leaves = outside(domain, motion, arm, &envelope.position_error);
+        let wanted = !self.sketch && (self.problem.seek_tube || control.require_guarantee);
+        let tube_needed = if !facts.certified || !wanted {
+            None
+        } else if leaves.is_empty() || domain.width().is_none() {
+            Some(envelope.position_error.clone())
+        } else {
+            self.smallest_tube(&inertia, &envelope, position, &position_bound)?
+        };
+        let inside = |share: f64, shape: &[f64]| -> Result<bool, Error> {
+            let scaled: Vec<f64> = shape.iter().map(|e| e * share).collect();
+            let settled = closed_loop.invariant_level(level(&scaled), &scaled)?;
+            Ok(settled.is_some_and(|e| outside(domain, motion, arm, &e.position_error).is_empty()))
+        };
+        let initial_error_max =
+            if self.sketch { position.clone() } else { largest_share(&shape(position, &own), inside)? };
+        if !leaves.is_empty() {
+            reasons.push(leaves.join("; "));
+        }
+        let (rates, _) = closed_loop.rates(&envelope.position_error, &envelope.velocity_error);
+        let guarantee = Guarantee {
+            holds: reasons.is_empty(),
+            reasons,
+            period_max,
+            final_error,
+            initial_error_max,
+            tube_needed,
+            inertia: facts,
+        };
+        Ok(Judgement {
+            envelope,
+            delta_c,
+            k_star,
+            delta_c1,
+            gain: load.gain,
+            settled,
+            rates,
+            first_step,
+            guarantee,
+        })
+    }
+
+    fn closed_loop<'b>(
+        &'b self,
+        inertia: &'b InertiaBounds,
+        position_bound: &[f64],
+    ) -> Result<ClosedLoop<'b>, Error> {
+        let DesignProblem { arm, motion, bounds, control, .. } = *self.problem;
+        let limit = |of: fn(&crate::arm::Limits) -> Option<f64>| -> Vec<f64> {
+            arm.joints.iter().map(|joint| of(&joint.limits).unwrap_or(0.0)).collect()
+        };
+        let learning = |adaptation| {
+            Ok(Learning::new(adaptation, regression(self.problem)?, self.problem.lagrangian, position_bound))
+        };
+        Ok(ClosedLoop {
+            law: control.law,
+            term: control.coriolis_term,
+            gains: self.gains,
+            form: &self.form,
+            bounds,
+            inertia,
+            speed: motion.map_or_else(|| limit(|l| l.velocity), |m| m.largest_speed()),
+            acceleration: motion.map_or_else(|| limit(|l| l.acceleration), |m| m.largest_acceleration()),
+            disturbance: self.disturbance,
+            layer: self.layer(),
+            period: self.tuning.period,
+            lag: self.feedforward.map_or_else(
+                || vec![0.0; arm.dof()],
+                |taken| taken.rate.iter().map(|rate| rate * self.tuning.period).collect(),
+            ),
+            learning: self.adaptation.map(learning).transpose()?,
+        })
+    }
+
+    fn longest_period(
+        &self,
+        inertia: &Inertia,
+        over: Vec<super::inertia::Cell>,
+        delta_c1: &[Vec<f64>],
+        closed_loop: &ClosedLoop,
+        gain: &[f64],
+    ) -> Longest {
+        let control = self.problem.control;
+        let n = gain.len();
+        let mut slope: Vec<f64> = match self.layer() {
+            Some(phi) if control.law.is_robust() => {
+                gain.iter().zip(phi).map(|(rho, phi)| rho / phi).collect()
+            }
+            _ => vec![0.0; n],
+        };
+        if let Some(learning) = &closed_loop.learning {
+            // Stability of small motions: what learning does in large ones counts in the ball.
+            let (rates, _) = closed_loop.rates(&vec![0.0; n], &vec![0.0; n]);
+            let more = learning.gain(&rates, self.tuning.period);
+            slope.iter_mut().zip(more).for_each(|(slope, more)| *slope += more);
+        }
+        let zero = vec![vec![0.0; n]; n];
+        let more = if self.has_matrix() { delta_c1 } else { &zero };
+        let pull = super::verified::largest_eigenvalue(&crate::numerics::linalg::dense(&self.gains.p12));
+        let Fastest { rate, certified } = fastest(inertia, over, &total(&self.gains.damping, more, &slope));
+        Longest { period: 2.0 / (rate + pull), certified }
+    }
+
+    pub(super) fn layer(&self) -> Option<&[f64]> {
+        self.tuning.boundary_layer.as_deref()
+    }
+
+    pub(super) fn has_matrix(&self) -> bool {
+        let control = self.problem.control;
+        control.law.has_bracket() && control.coriolis_term == crate::spec::CoriolisTermSpec::Matrix
+    }
+
+    /// Widens the tube to the errors of the one before until it holds them.
+    fn smallest_tube(
+        &self,
+        inertia: &Inertia,
+        envelope: &Envelope,
+        start: &[f64],
+        position_bound: &[f64],
+    ) -> Result<Option<Vec<f64>>, Error> {
+        let DesignProblem { domain, .. } = *self.problem;
+        let mut tube = envelope.position_error.clone();
+        for _ in 0..ROUNDS {
+            let facts = inertia_bounds(inertia, cells(domain, &tube), self.gains, &self.form);
+            let Some(next) =
+                self.closed_loop(&facts, position_bound)?.invariant_level(envelope.v_max, start)?
+            else {
+                return Ok(None);
+            };
+            let next = next.position_error;
+            if facts.certified && next.iter().zip(&tube).all(|(a, b)| *a <= b * (1.0 + 1e-9)) {
+                return Ok(Some(next));
+            }
+            tube = next.iter().zip(&tube).map(|(a, b)| 1.02 * a.max(*b)).collect();
+        }
+        Ok(None)
+    }
+}
+
+/// What helps a law that holds no level of V.
+fn more(law: LawSpec) -> &'static str {
+    match law {
+        LawSpec::Exact => {
+            "raise W or Omega, or take law `report` or `tight`, which outweigh what the model leaves out"
+        }
+        LawSpec::Report | LawSpec::Tight => "raise W or Omega, or narrow the boundary layer",
+        LawSpec::Adaptive => {
+            "raise W or Omega, narrow the boundary layer or the intervals of uncertainty, or lower Ptheta"
+        }
+    }
+}
+
+/// The direction in which the initial error is scaled.
+fn shape(position: &[f64], width: &[f64]) -> Vec<f64> {
+    [position, width]
+        .into_iter()
+        .find(|s| s.iter().any(|e| *e > 0.0))
+        .map_or(vec![1.0; width.len()], <[f64]>::to_vec)
+}
+
+/// The largest multiple of `shape`, up to half a turn (3.14 m), for which `inside` holds.
+fn largest_share(
+    shape: &[f64],
+    inside: impl Fn(f64, &[f64]) -> Result<bool, Error>,
+) -> Result<Vec<f64>, Error> {
+    let most = std::f64::consts::PI / shape.iter().fold(0.0_f64, |m, e| m.max(*e));
+    let (mut good, mut bad) = (0.0, most);
+    if inside(most, shape)? {
+        good = most;
+    } else {
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (good + bad);
+            if inside(middle, shape)? { good = middle } else { bad = middle }
+        }
+    }
+    Ok(shape.iter().map(|e| e * good).collect())
+}

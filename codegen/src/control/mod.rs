@@ -1,0 +1,290 @@
+//! The numbers of the tracking law and what they promise: gains, ΔC, ΔC1, switching, limits, guarantee.
+
+mod adaptation;
+mod error_envelope;
+mod family;
+mod feedforward;
+mod first_step;
+mod form;
+mod gain_synthesis;
+mod gains;
+mod guarantee;
+mod inertia;
+mod limits;
+mod region;
+mod search;
+mod settling;
+#[cfg(test)]
+mod tests;
+mod ultimate_bound;
+mod verified;
+
+use std::path::Path;
+
+pub use adaptation::Adaptation;
+pub use error_envelope::Envelope;
+pub use family::{least_eigenvalue, outweighs, smallest_multiple};
+pub use form::InertiaBounds;
+pub use gains::Gains;
+pub use guarantee::Guarantee;
+pub use inertia::{Cell, Extremes, Inertia};
+
+use crate::arm::{Arm, Uncertainty};
+use crate::bounds::{Bounds, Rates};
+use crate::check::{Control, GainSource, Tuning};
+use crate::domain::Domain;
+use crate::error::{Diagnostics, Error};
+use crate::lagrangian::Lagrangian;
+use crate::motion::Motion;
+use crate::number::short;
+use crate::progress::{self, Progress};
+use crate::reduction::Regression;
+use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec};
+use feedforward::Feedforward;
+
+/// Everything a controller needs beside its model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Design {
+    /// Which law.
+    pub law: LawSpec,
+    /// P12, K and Pqq.
+    pub gains: Gains,
+    /// W of equation (16), n×n, N·m·s/rad.
+    pub w: Vec<Vec<f64>>,
+    /// Ω of equation (16), n×n, N·m/(rad·s).
+    pub omega: Vec<Vec<f64>>,
+    /// What the errors and speeds stay below, given the initial error.
+    pub envelope: Envelope,
+    /// The largest rates that multiply the model while the errors stay in the envelope, feedback included; `None` where no
+    /// level of V holds them.
+    pub rates: Option<Rates>,
+    /// ΔC of equation (30), n×n, N·m·s/rad.
+    pub delta_c: Vec<Vec<f64>>,
+    /// k* = λ_max(sym ΔC), N·m·s/rad.
+    pub k_star: f64,
+    /// The variant of (34).
+    pub coriolis_term: CoriolisTermSpec,
+    /// ΔC1, n×n: the specification's, which was verified, or k*·I.
+    pub delta_c1: Vec<Vec<f64>>,
+    /// Bound on the Coulomb friction that the command does not cancel, by joint, N·m or N.
+    pub disturbance: Vec<f64>,
+    /// φ of the boundary layer by joint; `None` for the sign function.
+    pub boundary_layer: Option<Vec<f64>>,
+    /// Control period, s.
+    pub period: f64,
+    /// Largest torque by joint, N·m or N.
+    pub torque_limit: Vec<Option<f64>>,
+    /// Coulomb friction to compensate, forwards and backwards, by joint; zero where not asked for.
+    pub coulomb: Vec<[f64; 2]>,
+    /// What to command when a measurement is not finite.
+    pub on_fault: OnFaultSpec,
+    /// What law `adaptive` learns.
+    pub adaptation: Option<Adaptation>,
+    /// What all that promises.
+    pub guarantee: Guarantee,
+}
+
+/// What a law is designed from.
+#[derive(Clone, Copy, Debug)]
+pub struct DesignProblem<'a> {
+    /// The specification, which faults name.
+    pub file: &'a Path,
+    /// Its controller.
+    pub control: &'a Control,
+    /// The arm that the model is made of.
+    pub arm: &'a Arm,
+    /// The arm as specified, before its rotations were rounded, and its family.
+    pub given: (&'a Arm, &'a Uncertainty),
+    /// What that rounding changes at most; `None` where it changes nothing.
+    pub angles: Option<&'a Bounds>,
+    /// The exact model.
+    pub lagrangian: &'a Lagrangian,
+    /// What the reduced model leaves out over the domain.
+    pub bounds: &'a Bounds,
+    /// Where the bounds hold.
+    pub domain: &'a Domain,
+    /// The desired motion.
+    pub motion: Option<&'a Motion>,
+    /// All arms that the law must bear.
+    pub uncertainty: &'a Uncertainty,
+    /// The parameters of a law that learns.
+    pub regression: Option<&'a Regression>,
+    /// Whether to seek the smallest sufficient tube even where no guarantee is required.
+    pub seek_tube: bool,
+    /// Who is told how far the search for gains is.
+    pub progress: &'a dyn Progress,
+}
+
+/// Designs the law and judges it.
+///
+/// # Errors
+/// [`Error::Input`] where ΔC1 does not outweigh ΔC, the period is too long, or a required guarantee does not hold;
+/// [`Error::Internal`] where a matrix that was checked before turns out singular.
+pub fn design(problem: &DesignProblem) -> Result<Design, Error> {
+    let DesignProblem { file, control, arm, .. } = *problem;
+    let stage = Stage::new(problem)?;
+    let tuning = match &control.gains {
+        GainSource::Requested(request) => gain_synthesis::tune(&stage, request)?,
+        GainSource::Given(tuning) => tuning.clone(),
+    };
+    let told = progress::Stage::new(problem.progress, "guarantee", 1);
+    let (gains, judgement) = stage.judge(&tuning)?;
+    drop(told);
+    let guarantee::Judgement { envelope, delta_c, k_star, delta_c1, guarantee, rates, settled, .. } =
+        judgement;
+    let design = Design {
+        law: control.law,
+        gains,
+        w: tuning.w,
+        omega: tuning.omega,
+        envelope,
+        rates: settled.then_some(rates),
+        delta_c,
+        k_star,
+        coriolis_term: control.coriolis_term,
+        delta_c1,
+        disturbance: stage.disturbance,
+        boundary_layer: tuning.boundary_layer,
+        period: tuning.period,
+        torque_limit: arm.joints.iter().map(|joint| joint.limits.torque).collect(),
+        coulomb: stage.coulomb,
+        on_fault: control.on_fault,
+        adaptation: stage.adaptation,
+        guarantee,
+    };
+    let mut faults = Diagnostics::of(file);
+    design.check(control, &mut faults);
+    faults.finish(design)
+}
+
+/// What gains are judged against.
+struct Stage<'a> {
+    problem: &'a DesignProblem<'a>,
+    adaptation: Option<Adaptation>,
+    /// Bound on the Coulomb friction that the command does not cancel, by joint, N·m or N.
+    disturbance: Vec<f64>,
+    /// What the motion itself takes; `None` without one.
+    feedforward: Option<Feedforward>,
+    /// Coulomb friction that the command compensates, forwards and backwards, by joint.
+    coulomb: Vec<[f64; 2]>,
+}
+
+impl<'a> Stage<'a> {
+    fn new(problem: &'a DesignProblem<'a>) -> Result<Self, Error> {
+        let DesignProblem { control, arm, .. } = *problem;
+        let disturbance = |joint: &crate::arm::Joint| {
+            let [forwards, backwards] = joint.coulomb_friction;
+            // Compensated for the wrong direction, it counts in full from one side to the other.
+            if control.compensate_coulomb { forwards - backwards } else { forwards.max(-backwards) }
+        };
+        let coulomb = |joint: &crate::arm::Joint| {
+            if control.compensate_coulomb { joint.coulomb_friction } else { [0.0; 2] }
+        };
+        let (own, family) = problem.given;
+        let along = |motion| Feedforward::new(own, family, motion);
+        Ok(Self {
+            problem,
+            feedforward: problem.motion.map(along),
+            coulomb: arm.joints.iter().map(coulomb).collect(),
+            adaptation: Adaptation::new(problem)?,
+            disturbance: arm.joints.iter().map(disturbance).collect(),
+        })
+    }
+
+    /// The gain matrices of `tuning` and what they promise.
+    fn judge(&self, tuning: &Tuning) -> Result<(Gains, guarantee::Judgement), Error> {
+        self.judged(tuning, false, None)
+    }
+
+    /// As much of a judgement as a comparison of gains needs; `facts` are those of the same gains with another layer.
+    fn sketch(&self, tuning: &Tuning, facts: Option<&InertiaBounds>) -> Result<guarantee::Judgement, Error> {
+        self.judged(tuning, true, facts).map(|(_, judgement)| judgement)
+    }
+
+    fn judged(
+        &self,
+        tuning: &Tuning,
+        sketch: bool,
+        facts: Option<&InertiaBounds>,
+    ) -> Result<(Gains, guarantee::Judgement), Error> {
+        let gains = Gains::new(tuning);
+        let form = if gains.is_finite() { form::Form::new(&gains) } else { None };
+        let form = form.ok_or_else(|| {
+            let problem = "gives gains that overflow, or are too far apart to compute with";
+            Error::input(self.problem.file, "control", problem, "write W, Pqq and Omega in SI units")
+        })?;
+        let judgement = guarantee::Parts {
+            problem: self.problem,
+            gains: &gains,
+            form,
+            disturbance: &self.disturbance,
+            feedforward: self.feedforward.as_ref(),
+            coulomb: &self.coulomb,
+            tuning,
+            adaptation: self.adaptation.as_ref(),
+            facts,
+            sketch,
+        }
+        .judge()?;
+        Ok((gains, judgement))
+    }
+}
+
+impl Design {
+    /// True where everything that is computed is a finite number.
+    pub fn is_finite(&self) -> bool {
+        let Envelope { v_max, position_error, velocity_error, speed, level } = &self.envelope;
+        let lists = [position_error, velocity_error, speed].into_iter().chain(&self.delta_c);
+        self.gains.is_finite() && lists.flatten().chain([v_max, level, &self.k_star]).all(|v| v.is_finite())
+    }
+
+    fn check(&self, control: &Control, faults: &mut Diagnostics) {
+        let least = least_eigenvalue(&self.delta_c1, &self.delta_c);
+        if control.delta_c1.is_some() && !outweighs(least, &self.delta_c) {
+            faults.push(
+                "control.delta_c1",
+                format!(
+                    "does not outweigh ΔC: for some δC with |δC| ≤ ΔC the least eigenvalue of ΔC1 + sym(δC) is {least:.6}"
+                ),
+                format!(
+                    "add {:.6} to its diagonal, or leave it out for {:.6} times the identity",
+                    -least, self.k_star
+                ),
+            );
+        }
+        let promised = &self.guarantee;
+        if self.period >= promised.period_max && !control.allow_long_period {
+            faults.push(
+                "control.period",
+                format!(
+                    "is {} s, and the sampled loop is stable only below {} s",
+                    self.period,
+                    short(promised.period_max)
+                ),
+                format!(
+                    "shorten it, lower W, {}widen the boundary layer, or set `control.allow_long_period` and lose the guarantee",
+                    if self.adaptation.is_some() { "raise `control.adaptation.Ptheta`, " } else { "" }
+                ),
+            );
+        } else if control.require_guarantee && !promised.holds {
+            let list = |x: &[f64]| x.iter().map(|&e| short(e)).collect::<Vec<_>>().join(", ");
+            let tube = match &promised.tube_needed {
+                Some(tube) => format!("a tube of at least ({})", list(tube)),
+                None => "other gains: no tube was found to be enough".to_string(),
+            };
+            faults.push(
+                "control.require_guarantee",
+                format!("is set, and nothing is guaranteed: {}", promised.reasons.join("; ")),
+                format!(
+                    "take {tube}, or an initial position error of at most ({})",
+                    promised
+                        .initial_error_max
+                        .iter()
+                        .map(|e| short(e * 0.9995))
+                        .collect::<Vec<_>>()
+                        .join(", ")
+                ),
+            );
+        }
+    }
+}

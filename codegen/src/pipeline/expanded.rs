@@ -1,0 +1,69 @@
+//! Stage 2: the exact model.
+
+use super::Means;
+use super::modelled::check_count;
+use crate::arm::indefinite;
+use crate::check::Checked;
+use crate::domain::Domain;
+use crate::dynamics::mass_matrix;
+use crate::error::{Diagnostics, Error};
+use crate::lagrangian::{Lagrangian, expand_family};
+use crate::motion::Motion;
+use crate::progress::Stage;
+
+/// Pieces of a motion from which on the module's size is told, and what one of one joint adds to its text, bytes.
+const LONG_MOTION: usize = 2_000;
+const BYTES_A_PIECE: usize = 80;
+
+/// A checked specification with its exact model.
+///
+/// Holds: the model has as many functions as the specification asks for; over a workspace D(q) of a controlled arm was
+/// positive definite wherever it was looked at within the joints' limits.
+#[derive(Clone, Debug)]
+pub(super) struct Expanded {
+    /// The specification.
+    pub checked: Checked,
+    /// What is odd about it without being wrong.
+    pub warnings: Vec<String>,
+    /// The exact model.
+    pub lagrangian: Lagrangian,
+}
+
+impl Expanded {
+    /// # Errors
+    /// [`Error::Input`] where D is not positive definite or too many functions are asked for.
+    pub fn new(checked: Checked, means: Means) -> Result<Self, Error> {
+        let arm = &checked.built.arm;
+        let mut faults = Diagnostics::of(&checked.loaded.path);
+        // The domain around a motion is looked at later, where its points are known; the limits may reach far beyond it.
+        if checked.control.is_some()
+            && matches!(checked.domain, Domain::Workspace(_))
+            && let Some(state) = indefinite(arm, |q| mass_matrix(arm, q))
+        {
+            state.report(arm, &mut faults);
+            return Err(faults.into_error());
+        }
+        let mut warnings = checked.built.warnings.clone();
+        warnings.extend(checked.motion.as_ref().and_then(|motion| long(&checked, motion)));
+        let stage = Stage::new(means.progress, "expansion", 1);
+        let lagrangian = expand_family(arm, &checked.built.uncertainty);
+        drop(stage);
+        check_count(&checked.loaded.spec, &lagrangian, &mut faults);
+        faults.finish(Self { checked, warnings, lagrangian })
+    }
+}
+
+/// What is said of a motion of many pieces: all of them stand in the module.
+fn long(checked: &Checked, motion: &Motion) -> Option<String> {
+    let pieces = match motion {
+        Motion::Spline(spline) => spline.pieces.len(),
+        Motion::Quintic { .. } | Motion::Sinusoids { .. } => 0,
+    };
+    (pieces > LONG_MOTION).then(|| {
+        let size = pieces * motion.dof() * BYTES_A_PIECE / 1_000_000;
+        format!(
+            "{}: motion: has {pieces} pieces, which make the module about {size} MB long; fewer rows give a smaller one",
+            checked.loaded.path.display()
+        )
+    })
+}

@@ -1,0 +1,237 @@
+//! Everything that follows from one specification.
+
+use std::path::Path;
+
+use super::Means;
+use super::certified::Certified;
+use super::designed::Designed;
+use super::modelled::Modelled;
+use crate::arm::{Arm, Uncertainty};
+use crate::bounds::{Bounds, Certificate, Effort, Met, Torque};
+use crate::check::{Checked, Control, Extent, read};
+use crate::control::Design;
+use crate::domain::Domain;
+use crate::emit::{Module, emit};
+use crate::error::Error;
+use crate::graph::Graph;
+use crate::lagrangian::Lagrangian;
+use crate::load::{Loaded, spec_hash};
+use crate::model::Model;
+use crate::motion::Motion;
+use crate::progress::{Progress, Silent, Stage};
+use crate::reduction::{Reduced, Regression};
+use crate::spec::Spec;
+use crate::torque::{Form, Regressor};
+
+/// Everything that follows from one specification; read-only.
+///
+/// Holds: D(q) of a controlled arm was positive definite wherever it was looked at; the motion keeps to the joints' limits;
+/// no bound is exceeded by any state of the domain.
+#[derive(Clone, Debug)]
+pub struct Generation {
+    designed: Designed,
+    met: Option<Met>,
+}
+
+impl Generation {
+    /// Reads the specification at `path` and runs every stage.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with all faults of the specification and the files that it names.
+    pub fn from_file(path: &Path) -> Result<Self, Error> {
+        Self::new(read(path)?)
+    }
+
+    /// Runs every stage.
+    ///
+    /// # Errors
+    /// As [`Generation::from_file`].
+    pub fn new(loaded: Loaded) -> Result<Self, Error> {
+        Self::with_effort(loaded, &Effort::default())
+    }
+
+    /// Runs every stage, with that much work for each bound.
+    ///
+    /// # Errors
+    /// As [`Generation::from_file`].
+    pub fn with_effort(loaded: Loaded, effort: &Effort) -> Result<Self, Error> {
+        Self::with_progress(loaded, effort, &Silent)
+    }
+
+    /// The same, telling `progress` how far it is.
+    ///
+    /// # Errors
+    /// As [`Generation::from_file`].
+    pub fn with_progress(loaded: Loaded, effort: &Effort, progress: &dyn Progress) -> Result<Self, Error> {
+        super::run(loaded, Extent::Whole, Means { effort, progress })
+    }
+
+    /// The model alone: as [`Generation::with_progress`], but gains, guarantee and whether D can be inverted are not
+    /// looked at, and [`Generation::design`] is `None`.
+    ///
+    /// # Errors
+    /// As [`Generation::from_file`].
+    pub fn model_only(loaded: Loaded, effort: &Effort, progress: &dyn Progress) -> Result<Self, Error> {
+        super::run(loaded, Extent::Model, Means { effort, progress })
+    }
+
+    /// The last stage: what the model's error costs in torque at the rates that the law meets.
+    pub(super) fn concluded(designed: Designed, means: Means) -> Self {
+        let _stage = Stage::new(means.progress, "torque error of the law", 1);
+        let certified = &designed.certified;
+        let rates = designed.design.as_ref().and_then(|design| design.rates.as_ref());
+        let error = certified.modelled.error();
+        let met = rates.map(|rates| error.met(&certified.certificates, &certified.bounds, rates));
+        Self { designed, met }
+    }
+
+    /// The text of the generated module.
+    ///
+    /// # Errors
+    /// [`Error::Input`] where a named file has become unreadable, [`Error::Internal`] for defects.
+    pub fn module(&self) -> Result<String, Error> {
+        emit(&Module {
+            name: &self.spec().name,
+            hash: &spec_hash(&self.checked().loaded)?,
+            arm: self.arm(),
+            turned: self.arm() != self.given(),
+            uncertainty: self.uncertainty(),
+            lagrangian: self.lagrangian(),
+            model: self.model(),
+            bounds: self.bounds(),
+            torque: self.torque(),
+            met: self.met(),
+            verdict: &self.verdict(),
+            domain: self.domain(),
+            regressor: self.regressor(),
+            exact_code: self.exact_code(),
+            motion: self.motion(),
+            design: self.design(),
+        })
+    }
+
+    fn checked(&self) -> &Checked {
+        &self.modelled().sampled.expanded.checked
+    }
+
+    fn modelled(&self) -> &Modelled {
+        &self.certified().modelled
+    }
+
+    fn certified(&self) -> &Certified {
+        &self.designed.certified
+    }
+}
+
+/// What the stages gave.
+impl Generation {
+    /// The specification.
+    pub fn spec(&self) -> &Spec {
+        &self.checked().loaded.spec
+    }
+
+    /// The file that the specification was read from.
+    pub fn path(&self) -> &Path {
+        &self.checked().loaded.path
+    }
+
+    /// The arm that every model here is made for: its rotations are rounded as `arm.round_angles` says.
+    pub fn arm(&self) -> &Arm {
+        &self.checked().built.arm
+    }
+
+    /// The arm as the specification gives it.
+    pub fn given(&self) -> &Arm {
+        &self.checked().built.given
+    }
+
+    /// All arms that the controller must bear.
+    pub fn uncertainty(&self) -> &Uncertainty {
+        &self.checked().built.uncertainty
+    }
+
+    /// Where the model must be good.
+    pub fn domain(&self) -> &Domain {
+        &self.checked().domain
+    }
+
+    /// The exact model.
+    pub fn lagrangian(&self) -> &Lagrangian {
+        &self.modelled().sampled.expanded.lagrangian
+    }
+
+    /// The emitted model with its code.
+    pub fn model(&self) -> &Model {
+        &self.modelled().model
+    }
+
+    /// The coefficients of the emitted model.
+    pub fn reduced(&self) -> &Reduced {
+        &self.model().reduced
+    }
+
+    /// The emitted passivity torque.
+    pub fn code(&self) -> &Graph {
+        &self.model().code
+    }
+
+    /// The cheapest exact passivity torque.
+    pub fn exact_code(&self) -> &Graph {
+        &self.modelled().exact
+    }
+
+    /// What the model leaves out over the domain at most, rounded up to the digits that are printed.
+    pub fn bounds(&self) -> &Bounds {
+        &self.certified().bounds
+    }
+
+    /// How the emitted code computes the torque.
+    pub fn form(&self) -> Form {
+        self.model().form
+    }
+
+    /// What is odd about the specification without being wrong.
+    pub fn warnings(&self) -> &[String] {
+        &self.modelled().warnings
+    }
+
+    /// A certificate for each coefficient of [`Generation::lagrangian`].
+    pub fn certificates(&self) -> &[Certificate] {
+        &self.certified().certificates
+    }
+
+    /// The desired motion; `None` where there is none.
+    pub fn motion(&self) -> Option<&Motion> {
+        self.checked().motion.as_deref()
+    }
+
+    /// The controller that the specification asks for; `None` where there is none, or where only the model was asked for.
+    pub fn control(&self) -> Option<&Control> {
+        self.checked().control.as_ref()
+    }
+
+    /// What the model's error costs in torque; `None` over a workspace where a joint lacks a limit.
+    pub fn torque(&self) -> Option<&Torque> {
+        self.certified().torque.as_ref()
+    }
+
+    /// The same at the rates that the law meets; `None` without a controller, or where no level of V holds the errors.
+    pub fn met(&self) -> Option<&Met> {
+        self.met.as_ref()
+    }
+
+    /// The controller; `None` where there is none, or where only the model was asked for.
+    pub fn design(&self) -> Option<&Design> {
+        self.designed.design.as_ref()
+    }
+
+    /// The parameters of a law that learns; `None` for the other laws.
+    pub fn regression(&self) -> Option<&Regression> {
+        self.modelled().regression.as_ref()
+    }
+
+    /// The torque as a function of them; `None` for the other laws.
+    pub fn regressor(&self) -> Option<&Regressor> {
+        self.modelled().regressor.as_ref()
+    }
+}

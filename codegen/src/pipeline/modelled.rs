@@ -1,0 +1,164 @@
+//! Stage 4: the model that the specification asks for, with its code.
+
+use super::sampled::Sampled;
+use super::{Means, angles};
+use crate::choose::{self, ToleranceRequest};
+use crate::error::{Diagnostics, Error};
+use crate::graph::Graph;
+use crate::lagrangian::Lagrangian;
+use crate::model::Model;
+use crate::progress::Stage;
+use crate::reduction::{self, Dictionary, Regression};
+use crate::spec::{DictionarySpec, LawSpec, ModelSpec, RefitSpec, Spec};
+use crate::torque::{self, Form, Regressor};
+
+/// The emitted model beside the exact one.
+///
+/// Holds: every parameter of the model is a finite number; its code takes sines as the specification says.
+#[derive(Clone, Debug)]
+pub(super) struct Modelled {
+    /// What it was chosen by.
+    pub sampled: Sampled,
+    /// The model.
+    pub model: Model,
+    /// The cheapest exact passivity torque.
+    pub exact: Graph,
+    /// The parameters of a law that learns.
+    pub regression: Option<Regression>,
+    /// The torque as a function of them.
+    pub regressor: Option<Regressor>,
+    /// What is odd about the specification without being wrong.
+    pub warnings: Vec<String>,
+}
+
+impl Modelled {
+    /// # Errors
+    /// [`Error::Input`] where a parameter overflows.
+    pub fn new(sampled: Sampled, means: Means) -> Result<Self, Error> {
+        let checked = &sampled.expanded.checked;
+        let (lagrangian, built) = (&sampled.expanded.lagrangian, &checked.built);
+        let stage = Stage::new(means.progress, "reduction", 1);
+        let exact = {
+            let _stage = Stage::new(means.progress, "exact code", 1);
+            torque::exact(&built.arm, lagrangian)
+        };
+        let mut warnings = sampled.expanded.warnings.clone();
+        warnings.extend(angles::advice(&checked.loaded, &built.arm, &built.given, &exact.1));
+        let mut model = requested(&sampled, &exact, means);
+        let regression = learns(&checked.loaded.spec).then(|| regression(&sampled, &mut model));
+        drop(stage);
+        if model.form == Form::Recursive && !sampled.sines.rounds() {
+            // What coarse sines do is known of the plain recursion alone.
+            model.code = torque::plain(&built.arm);
+        }
+        let mut regressor = regression
+            .as_ref()
+            .map(|regression| torque::regressor(&built.arm, lagrangian, regression, model.form));
+        if let Some(regressor) = &mut regressor {
+            regressor.code.sines = sampled.sines.clone();
+        }
+        model.code.sines = sampled.sines.clone();
+        Ok(Self { model, exact: exact.1, regression, regressor, warnings, sampled })
+    }
+}
+
+fn learns(spec: &Spec) -> bool {
+    spec.control.as_ref().is_some_and(|control| control.law == LawSpec::Adaptive)
+}
+
+/// What law `adaptive` learns; `model` follows it.
+fn regression(sampled: &Sampled, model: &mut Model) -> Regression {
+    let checked = &sampled.expanded.checked;
+    let (spec, lagrangian) = (&checked.loaded.spec, &sampled.expanded.lagrangian);
+    let adaptation = spec.control.as_ref().and_then(|control| control.adaptation.clone());
+    model.reduced = reduction::reestimate(lagrangian, model.reduced.clone(), &sampled.points, spec.refit);
+    let names: Vec<String> = checked.built.uncertainty.parameters.iter().map(|p| p.name.clone()).collect();
+    Regression::new(lagrangian, &model.reduced, adaptation.unwrap_or_default().parameters, &names)
+}
+
+/// The model that the specification asks for; `exact` is the form and the code of the exact one.
+fn requested(sampled: &Sampled, exact: &(Form, Graph), means: Means) -> Model {
+    let Sampled { expanded, measure, points, .. } = sampled;
+    let (spec, lagrangian) = (&expanded.checked.loaded.spec, &expanded.lagrangian);
+    let minimax = spec.refit == RefitSpec::Minimax;
+    let reduced = match spec.model {
+        ModelSpec::Exact => {
+            let (form, code) = exact.clone();
+            return Model { reduced: reduction::exact(lagrangian), form, code };
+        }
+        ModelSpec::Auto | ModelSpec::Tolerance { .. } => return cheapest(sampled, exact, means),
+        ModelSpec::Shared { functions } | ModelSpec::Separate { functions }
+            if spec.dictionary != DictionarySpec::Harmonic =>
+        {
+            return over_dictionary(sampled, functions);
+        }
+        ModelSpec::Shared { functions } => {
+            let reduced = reduction::shared(lagrangian, measure, functions);
+            if minimax { reduction::minimax(lagrangian, reduced, points) } else { reduced }
+        }
+        ModelSpec::Separate { functions } => {
+            let reduced = reduction::separate(lagrangian, measure, functions);
+            if minimax { reduction::minimax_each(lagrangian, reduced, points) } else { reduced }
+        }
+    };
+    let code = torque::expanded(&expanded.checked.built.arm, lagrangian, &reduced);
+    Model { reduced, form: Form::Expanded, code }
+}
+
+/// A model of `functions` functions among more than the ψ of the exact one.
+fn over_dictionary(sampled: &Sampled, functions: usize) -> Model {
+    let Sampled { expanded, measure, points, .. } = sampled;
+    let (spec, lagrangian) = (&expanded.checked.loaded.spec, &expanded.lagrangian);
+    let separate = matches!(spec.model, ModelSpec::Separate { .. });
+    let candidates = dictionary(spec).functions(lagrangian);
+    let mut sparse = reduction::over_dictionary(lagrangian, measure, candidates, functions, separate);
+    if spec.refit == RefitSpec::Minimax {
+        sparse = reduction::minimax_sparse(lagrangian, sparse, functions, points);
+    }
+    let code = torque::sparse(lagrangian, &sparse);
+    Model { reduced: sparse.reduced(lagrangian), form: Form::Sparse, code }
+}
+
+/// The cheapest model within the tolerance, which is about the arm's own parameters.
+fn cheapest(sampled: &Sampled, exact: &(Form, Graph), means: Means) -> Model {
+    let checked = &sampled.expanded.checked;
+    let known = sampled.expanded.lagrangian.at_nominal();
+    let request = ToleranceRequest {
+        arm: &checked.built.arm,
+        lagrangian: &known,
+        domain: &checked.domain,
+        measure: &sampled.measure,
+        scale: sampled.scale.as_ref(),
+        exact: (exact.0, &exact.1),
+        progress: means.progress,
+    };
+    choose::cheapest(&request, checked.loaded.spec.model.tolerance().unwrap_or_default())
+}
+
+/// Faults where more functions are asked for than there are.
+pub(super) fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Diagnostics) {
+    let p = dictionary(spec).functions(lagrangian).len();
+    let (field, functions) = match spec.model {
+        ModelSpec::Shared { functions } => ("model.shared.functions", functions),
+        ModelSpec::Separate { functions } => ("model.separate.functions", functions),
+        ModelSpec::Exact | ModelSpec::Tolerance { .. } | ModelSpec::Auto => return,
+    };
+    if functions > p {
+        let whose = match spec.dictionary {
+            DictionarySpec::Harmonic => "exact model",
+            DictionarySpec::Product => "dictionary `product`",
+            DictionarySpec::Union => "dictionary `union`",
+        };
+        let problem = format!("is {functions}, but the {whose} has {p} functions");
+        faults.push(field, problem, format!("write a number from 1 to {p}, or `\"exact\"`"));
+    }
+}
+
+/// The functions among which the reduction chooses.
+pub(crate) fn dictionary(spec: &Spec) -> Dictionary {
+    match spec.dictionary {
+        DictionarySpec::Harmonic => Dictionary::Harmonic,
+        DictionarySpec::Product => Dictionary::Product,
+        DictionarySpec::Union => Dictionary::Union,
+    }
+}

@@ -1,0 +1,105 @@
+//! Stage 3: where the model must be good, and what its errors are compared with.
+
+use super::Means;
+use super::expanded::Expanded;
+use crate::arm::{Arm, JointKind, indefinite_among};
+use crate::bounds::{Bounds, TorqueScale, position_bound, rounded_angles};
+use crate::check::Checked;
+use crate::domain::{Domain, Measure};
+use crate::dynamics::mass_matrix;
+use crate::error::{Diagnostics, Error};
+use crate::progress::Stage;
+use crate::reduction;
+use crate::spec::RefitSpec;
+use crate::trig::Trig;
+
+/// Positions of the domain at which D is looked at.
+const POSITIONS: usize = 512;
+
+/// The same for each vertex of the uncertain parameters' box.
+const VERTEX_POSITIONS: usize = 64;
+
+/// An exact model with the positions and torques that a simpler one is judged by.
+///
+/// Holds: every angle of the domain is within the range of the sines; D(q) of a controlled arm, and of all that it may be,
+/// was positive definite at the points looked at.
+#[derive(Clone, Debug)]
+pub(super) struct Sampled {
+    /// The exact model.
+    pub expanded: Expanded,
+    /// How sines are taken.
+    pub sines: Trig,
+    /// The domain as weighted points.
+    pub measure: Measure,
+    /// The points that parameters are fitted to.
+    pub points: Vec<Vec<f64>>,
+    /// The domain within one turn of each joint, where bounds are sought.
+    pub turn: Domain,
+    /// What rounding the arm's rotations changes at most; `None` where it changes nothing.
+    pub angles: Option<Bounds>,
+    /// Rates and peak torques; `None` over a workspace where a joint lacks a limit.
+    pub scale: Option<TorqueScale>,
+}
+
+impl Sampled {
+    /// # Errors
+    /// [`Error::Input`] where an angle is beyond the sines' range or D is not positive definite.
+    pub fn new(expanded: Expanded, means: Means) -> Result<Self, Error> {
+        let Expanded { checked, lagrangian, .. } = &expanded;
+        let Checked { loaded, built, domain, .. } = checked;
+        let arm = &built.arm;
+        let sines = Trig::new(&loaded.spec.emit.trig);
+        let mut faults = Diagnostics::of(&loaded.path);
+        check_angles(&sines, &position_bound(domain), arm, &mut faults);
+        faults.finish(())?;
+        let stage = Stage::new(means.progress, "measure", 1);
+        let measure = Measure::new(domain, arm);
+        if checked.control.is_some() {
+            check_definite(checked, &measure)?;
+        }
+        drop(stage);
+        let points = match loaded.spec.refit {
+            RefitSpec::Minimax => reduction::extremes(&measure, domain),
+            RefitSpec::LeastSquares => measure.points.clone(),
+        };
+        let turn = domain.within_a_turn(arm, 1.0);
+        let position_bound = position_bound(&turn);
+        let family = (arm, &built.uncertainty);
+        let angles = rounded_angles(family, (&built.given, &built.uncertain), &position_bound);
+        let scale = TorqueScale::new(arm, domain)
+            .map(|scale| scale.reserving((arm, lagrangian), &position_bound, angles.as_ref(), &sines));
+        Ok(Self { sines, measure, points, turn, angles, scale, expanded })
+    }
+}
+
+/// The domain may hold states that the look at the limits has missed, such as a wrist stretched out.
+fn check_definite(checked: &Checked, measure: &Measure) -> Result<(), Error> {
+    let Checked { loaded, built, .. } = checked;
+    let mut faults = Diagnostics::of(&loaded.path);
+    let seen = |most: usize| measure.points.iter().step_by(measure.points.len().div_ceil(most).max(1));
+    if let Some(state) = indefinite_among(seen(POSITIONS), |q| mass_matrix(&built.arm, q)) {
+        state.report(&built.arm, &mut faults);
+        return Err(faults.into_error());
+    }
+    for u in built.uncertainty.vertices() {
+        let member = built.uncertainty.at(&built.arm, &u);
+        if let Some(state) = indefinite_among(seen(VERTEX_POSITIONS), |q| mass_matrix(&member, q)) {
+            state.report_member(&built.uncertainty, &u, &mut faults);
+            return Err(faults.into_error());
+        }
+    }
+    Ok(())
+}
+
+/// Faults where the domain holds angles for which the sines chosen promise nothing.
+fn check_angles(sines: &Trig, position_bound: &[f64], arm: &Arm, faults: &mut Diagnostics) {
+    let turning =
+        arm.joints.iter().zip(position_bound).filter(|(joint, _)| joint.kind == JointKind::Revolute);
+    for (joint, most) in turning.filter(|(_, most)| **most > sines.range) {
+        faults.push(
+            "emit.trig",
+            format!("takes angles up to {:.1} rad, and {} may reach {most:.1} rad", sines.range, joint.name),
+            "write \"libm\", or correct the motion or the limits",
+        );
+    }
+}
