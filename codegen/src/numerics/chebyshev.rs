@@ -16,8 +16,6 @@ use super::lu::Lu;
 const TOLERANCE: f64 = 1e-6;
 /// Slack on λ ≥ 0 in the ratio test, so that among nearly tied points the best-conditioned one leaves.
 const SLACK: f64 = 1e-10;
-/// Values compared side by side.
-const LANES: usize = 8;
 /// Points handled at a time, so that a block stays in the first-level cache.
 const BLOCK: usize = 512;
 
@@ -175,22 +173,9 @@ fn residuals(directions: &[Vec<f64>], values: &[f64], parameters: &[f64], out: &
 /// The first position of the largest absolute value, and that value; (0, 0) for nothing.
 fn largest(values: &[f64]) -> (usize, f64) {
     let mut best = (0, 0.0);
-    for (number, block) in values.chunks(LANES * 4).enumerate() {
-        // Only where a block holds something larger it is looked at one by one.
-        let mut lanes = [0.0; LANES];
-        let (whole, rest) = block.as_chunks::<LANES>();
-        for eight in whole {
-            for (most, x) in lanes.iter_mut().zip(eight) {
-                *most = if x.abs() > *most { x.abs() } else { *most };
-            }
-        }
-        if !lanes.iter().chain(rest).any(|x| x.abs() > best.1) {
-            continue;
-        }
-        for (i, x) in block.iter().enumerate() {
-            if x.abs() > best.1 {
-                best = (number * LANES * 4 + i, x.abs());
-            }
+    for (i, x) in values.iter().enumerate() {
+        if x.abs() > best.1 {
+            best = (i, x.abs());
         }
     }
     best

@@ -113,23 +113,29 @@ impl Costs {
     /// What a model of cost `now` whose groups need nodes as `uses` says costs with the functions `new` in place of `old`
     /// in one of its groups, neither of them empty, both ascending: rates and sums stay as they are.
     pub fn exchanged(&self, now: usize, uses: &[usize], old: &[usize], new: &[usize]) -> usize {
-        let beside = |a: &[usize], b: &[usize]| -> Vec<usize> {
-            a.iter().copied().filter(|f| b.binary_search(f).is_err()).collect()
+        let gone = || old.iter().copied().filter(|f| new.binary_search(f).is_err());
+        let come = || new.iter().copied().filter(|f| old.binary_search(f).is_err());
+        let terms = |f: usize| 2 - usize::from(self.constant[f]);
+        let needs = |f: usize, node: usize| self.needs[f].binary_search(&node).is_ok();
+        // Each node where it is first needed.
+        let first = |some: &mut dyn Iterator<Item = usize>, f: usize, node: usize| {
+            some.take_while(|&other| other != f).all(|other| !needs(other, node))
         };
-        let (gone, come) = (beside(old, new), beside(new, old));
-        let terms = |some: &[usize]| 2 * some.len() - some.iter().filter(|&&f| self.constant[f]).count();
-        let needed = |some: &[usize]| {
-            let mut nodes: Vec<usize> = some.iter().flat_map(|&f| self.needs[f].iter().copied()).collect();
-            nodes.sort_unstable();
-            nodes
-        };
-        let (before, after) = (needed(&gone), needed(&come));
-        let lost = before
-            .chunk_by(|a, b| a == b)
-            .filter(|same| uses[same[0]] == same.len() && after.binary_search(&same[0]).is_err());
-        let added = after.chunk_by(|a, b| a == b).filter(|same| uses[same[0]] == 0);
-        let cost = |same: &[usize]| self.nodes[same[0]];
-        now + terms(&come) + added.map(cost).sum::<usize>() - terms(&gone) - lost.map(cost).sum::<usize>()
+        let mut cost = now + come().map(terms).sum::<usize>();
+        for f in come() {
+            let added = |&&node: &&usize| uses[node] == 0 && first(&mut come(), f, node);
+            cost += self.needs[f].iter().filter(added).map(|&node| self.nodes[node]).sum::<usize>();
+        }
+        for f in gone() {
+            let times = |node: usize| gone().filter(|&other| needs(other, node)).count();
+            let lost = |&&node: &&usize| {
+                uses[node] == times(node)
+                    && first(&mut gone(), f, node)
+                    && !come().any(|other| needs(other, node))
+            };
+            cost -= self.needs[f].iter().filter(lost).map(|&node| self.nodes[node]).sum::<usize>();
+        }
+        cost - gone().map(terms).sum::<usize>()
     }
 
     /// What it takes to have the rates in absolute angles, and the joints' torques from those of the rows.

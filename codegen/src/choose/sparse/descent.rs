@@ -301,7 +301,7 @@ impl Descent<'_> {
                     .enumerate()
                     .for_each(|(point, (out, e))| *out = e + change(point)),
             }
-            largest = changed.iter().fold(largest, |largest, &error| largest.max(error));
+            largest = largest_of(&changed, largest);
             if largest > most {
                 return None;
             }
@@ -362,7 +362,19 @@ pub(super) fn errors(dof: usize, table: &Table, forms: &[Arc<Form>]) -> Vec<Vec<
 }
 
 pub(super) fn largest(errors: &[Vec<f64>]) -> f64 {
-    errors.iter().flatten().fold(0.0, |m, &e| m.max(e))
+    errors.iter().fold(0.0, |most, row| largest_of(row, most))
+}
+
+/// The largest of `values` and `least`; comparisons side by side do not wait for one another.
+fn largest_of(values: &[f64], least: f64) -> f64 {
+    let mut most = [least; 8];
+    let (eights, rest) = values.as_chunks::<8>();
+    for eight in eights {
+        for (most, x) in most.iter_mut().zip(eight) {
+            *most = if x > most { *x } else { *most };
+        }
+    }
+    most.iter().chain(rest).fold(least, |most, &x| most.max(x))
 }
 
 fn sparse(candidates: &[CandidateFunction], forms: &[Arc<Form>]) -> Sparse {

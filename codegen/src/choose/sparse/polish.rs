@@ -77,16 +77,26 @@ impl Descent<'_> {
             }
             sum
         };
+        let exceeds = |errors: &[Vec<f64>]| -> Vec<bool> {
+            errors.iter().map(|row| row.iter().any(|&e| e > aim)).collect()
+        };
         let mut now = excess(&self.errors);
+        let mut above = exceeds(&self.errors);
         for _ in 0..TIMES {
             let before = now;
             for slot in 0..self.forms.len() {
                 let old = self.forms[slot].clone();
+                let shares = |&(m, _): &(usize, f64)| &self.table.shares[m];
+                // Where it enters no joint's torque that is off by more, it cannot help.
+                if !old.members.iter().flat_map(shares).any(|&(i, _)| above[i]) {
+                    continue;
+                }
                 let Some(new) = self.fitted_to_room(&[&old], &old, aim) else { continue };
                 let errors = exchanged(self.table, &self.errors, &[&old], &new);
                 let then = excess(&errors);
                 if then < now {
                     now = then;
+                    above = exceeds(&errors);
                     self.errors = errors;
                     self.put(slot, Arc::new(new));
                 }

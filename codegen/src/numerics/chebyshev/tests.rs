@@ -2,7 +2,7 @@
 
 use super::super::basis::Basis;
 use super::super::vector::dot;
-use super::{Fit, fit, fit_below, largest, residuals, spanning_points};
+use super::{Fit, fit, fit_below, residuals, spanning_points};
 use crate::numerics::low_discrepancy::LowDiscrepancy;
 
 /// Points of an arc |θ| ≤ `half`.
@@ -117,21 +117,5 @@ fn a_fit_below_what_can_be_reached_ends_early_and_any_other_is_the_same() {
         let most = part * best.level;
         let early = fit_below(&basis, &values, &start, most);
         assert!(early.level > most && early.deviation > most, "{part}");
-    }
-}
-
-#[test]
-fn the_first_of_the_largest_values_is_found() {
-    let spread = LowDiscrepancy::new(1);
-    let mut values: Vec<f64> = (0..150).map(|i| (10.0 * spread.point(i)[0]).round() - 5.0).collect();
-    values[70] = f64::NAN;
-    for length in 0..values.len() {
-        let mut wanted = (0, 0.0);
-        for (i, x) in values[..length].iter().enumerate() {
-            if x.abs() > wanted.1 {
-                wanted = (i, x.abs());
-            }
-        }
-        assert_eq!(largest(&values[..length]), wanted, "{length}");
     }
 }
