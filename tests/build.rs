@@ -2,6 +2,7 @@
 
 fn main() {
     let specs = [
+        "arm",
         "ur5",
         "stanford",
         "arm3_sinusoids",

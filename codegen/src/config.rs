@@ -1,13 +1,17 @@
 //! The builder for `build.rs`, and the engine of the command.
 
 mod build_script;
+mod made;
 mod modules;
 
 use std::io::stdout;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use made::Made;
+
 use crate::bounds::Effort;
+use crate::cache::Cache;
 use crate::check::read;
 use crate::error::{Diagnostics, Error, Stale};
 use crate::load::Loaded;
@@ -35,6 +39,7 @@ pub struct Config {
     out_dir: Option<PathBuf>,
     effort: Effort,
     progress: Option<Arc<dyn Progress>>,
+    uncached: bool,
 }
 
 /// One generated module.
@@ -91,6 +96,14 @@ impl Config {
         self
     }
 
+    /// Sets whether [`Config::run_in_build_script`] may take from `OUT_DIR` what an earlier run has made of the same
+    /// specification, files and effort with the same generator; it may by default. What is taken has the same bytes.
+    #[must_use]
+    pub fn cache(mut self, cache: bool) -> Self {
+        self.uncached = !cache;
+        self
+    }
+
     /// Generates every module and writes those that changed. No file is touched unless all can be generated and written.
     ///
     /// # Errors
@@ -143,34 +156,32 @@ impl Config {
     }
 
     fn build(&self, loaded: Vec<Result<Loaded, Error>>) -> Result<Vec<Output>, Error> {
+        let made = self.make(loaded, None)?;
+        Ok(made.into_iter().filter_map(Made::into_output).collect())
+    }
+
+    /// Makes every module, as far as `cache` does not hold it.
+    fn make(&self, loaded: Vec<Result<Loaded, Error>>, cache: Option<&Cache>) -> Result<Vec<Made>, Error> {
         let out_dir = self.folder()?;
         let mut faults = Vec::new();
-        let mut outputs: Vec<Output> = Vec::new();
+        let mut all: Vec<Made> = Vec::new();
         for (spec, loaded) in self.specs.iter().zip(loaded) {
-            let generation = loaded.and_then(|loaded| self.generation(loaded));
-            let built = generation.and_then(|generation| {
-                let path = out_dir.join(format!("{}.rs", generation.spec().name));
-                Ok(Output { path, text: generation.module()?, written: false, generation })
+            let made = loaded.and_then(|loaded| {
+                let told = self.progress.as_deref().unwrap_or(&Silent);
+                let titled = Titled { title: loaded.spec.name.clone(), progress: told };
+                let progress = if self.specs.len() < 2 { told } else { &titled };
+                Made::new(loaded, &out_dir, &self.effort, progress, cache)
             });
-            match built {
-                Ok(output) => match outputs.iter().find(|other| other.path == output.path) {
-                    Some(other) => faults.extend(same_name(spec, &output, other)),
-                    None => outputs.push(output),
+            match made {
+                Ok(made) => match all.iter().find(|other| other.module == made.module) {
+                    Some(other) => faults.extend(same_name(spec, &made, other)),
+                    None => all.push(made),
                 },
                 Err(Error::Input(more)) => faults.extend(more),
                 Err(other) => return Err(other),
             }
         }
-        if faults.is_empty() { Ok(outputs) } else { Err(Error::Input(faults)) }
-    }
-
-    fn generation(&self, loaded: Loaded) -> Result<Generation, Error> {
-        let progress = self.progress.as_deref().unwrap_or(&Silent);
-        if self.specs.len() < 2 {
-            return Generation::with_progress(loaded, &self.effort, progress);
-        }
-        let titled = Titled { title: loaded.spec.name.clone(), progress };
-        Generation::with_progress(loaded, &self.effort, &titled)
+        if faults.is_empty() { Ok(all) } else { Err(Error::Input(faults)) }
     }
 
     fn folder(&self) -> Result<PathBuf, Error> {
@@ -182,11 +193,14 @@ impl Config {
     }
 }
 
-fn same_name(spec: &Path, output: &Output, other: &Output) -> Vec<crate::error::Diagnostic> {
+fn same_name(spec: &Path, made: &Made, other: &Made) -> Vec<crate::error::Diagnostic> {
     let mut faults = Diagnostics::of(spec);
-    let name = &output.generation.spec().name;
-    let first = other.generation.path().display();
-    faults.push("name", format!("is {name:?}, as in {first}"), "give every specification a name of its own");
+    let first = other.spec.display();
+    faults.push(
+        "name",
+        format!("is {:?}, as in {first}", made.name),
+        "give every specification a name of its own",
+    );
     match faults.into_error() {
         Error::Input(list) => list,
         _ => Vec::new(),

@@ -1,4 +1,4 @@
-//! What can go wrong, as values: every message names the file, the field, the value and the mend.
+//! What can go wrong, as values: every message names the file, the field, the value and the help.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -136,7 +136,7 @@ impl Diagnostics {
 pub struct Stale {
     /// The file that differs or is missing.
     pub path: PathBuf,
-    /// The command that mends it.
+    /// The command that brings it up to date.
     pub command: String,
 }
 

@@ -22,6 +22,7 @@
 
 mod arm;
 mod bounds;
+mod cache;
 mod check;
 mod choose;
 mod cli;

@@ -36,9 +36,53 @@ pub fn percent(x: f64) -> String {
     }
 }
 
+/// `x` with so many decimals; powers of ten where the number would run long.
+pub fn decimal(x: f64, decimals: usize) -> String {
+    if x.is_infinite() {
+        "without bound".to_string()
+    } else if x.abs() < 1e7 {
+        format!("{x:.decimals$}")
+    } else {
+        short(x)
+    }
+}
+
+/// `x` as a file would give it: every digit, powers of ten where the number would run long otherwise.
+pub fn scientific(x: f64) -> String {
+    let size = x.abs();
+    if !x.is_finite() {
+        NONE.to_string()
+    } else if x == 0.0 || (1e-5..1e10).contains(&size) {
+        format!("{x}")
+    } else {
+        format!("{x:e}")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_number_runs_long() {
+        let cases = [
+            (0.0, "0"),
+            (0.01, "0.01"),
+            (1e-9, "1e-9"),
+            (-2500.0, "-2500"),
+            (1e300, "1e300"),
+            (-1.25e-310, "-1.25e-310"),
+            (f64::INFINITY, "not available"),
+        ];
+        for (x, text) in cases {
+            assert_eq!(scientific(x), text);
+        }
+        let decimals =
+            [(1.5, "1.500"), (-1234.5, "-1234.500"), (1e300, "1.000e300"), (f64::INFINITY, "without bound")];
+        for (x, text) in decimals {
+            assert_eq!(decimal(x, 3), text);
+        }
+    }
 
     #[test]
     fn numbers_have_four_digits() {

@@ -6,12 +6,14 @@ mod designed;
 mod expanded;
 mod generation;
 mod modelled;
+mod proved;
 mod sampled;
 mod threads;
 mod verdict;
 
 pub use generation::Generation;
 pub(crate) use modelled::dictionary;
+pub(crate) use proved::keep;
 
 use certified::Certified;
 use designed::Designed;
@@ -20,6 +22,7 @@ use modelled::Modelled;
 use sampled::Sampled;
 
 use crate::bounds::Effort;
+use crate::cache::Cache;
 use crate::check::{Extent, checked};
 use crate::error::Error;
 use crate::load::Loaded;
@@ -32,6 +35,8 @@ struct Means<'a> {
     effort: &'a Effort,
     /// Who hears of it.
     progress: &'a dyn Progress,
+    /// What earlier runs have proved; `None` to prove all anew.
+    cache: Option<&'a Cache>,
 }
 
 /// Runs every stage on `loaded`.
@@ -41,10 +46,12 @@ struct Means<'a> {
 fn run(loaded: Loaded, extent: Extent, means: Means) -> Result<Generation, Error> {
     threads::check()?;
     let checked = checked(loaded, extent)?;
-    let expanded = Expanded::new(checked, means)?;
-    let sampled = Sampled::new(expanded, means)?;
-    let modelled = Modelled::new(sampled, means)?;
-    let certified = Certified::new(modelled, means)?;
+    let certified = proved::kept_or(checked, means, |checked| {
+        let expanded = Expanded::new(checked, means)?;
+        let sampled = Sampled::new(expanded, means)?;
+        let modelled = Modelled::new(sampled, means)?;
+        Certified::new(modelled, means)
+    })?;
     let designed = Designed::new(certified, means)?;
     Ok(Generation::concluded(designed, means))
 }

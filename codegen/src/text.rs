@@ -62,6 +62,18 @@ pub fn escaped_json(json: &str) -> String {
     out
 }
 
+/// Most names that a message lists.
+const MOST_LISTED: usize = 20;
+
+/// Names separated by commas; of more than 20 the rest is counted.
+pub(crate) fn listed(names: &[&str]) -> String {
+    let shown: Vec<&str> = names.iter().take(MOST_LISTED).copied().collect();
+    match names.len() - shown.len() {
+        0 => shown.join(", "),
+        more => format!("{} and {more} more", shown.join(", ")),
+    }
+}
+
 /// "has 1 entry", "has 2 entries".
 pub(crate) fn has(count: usize) -> String {
     format!("has {count} {}", if count == 1 { "entry" } else { "entries" })
@@ -89,6 +101,15 @@ mod tests {
         let json = escaped_json(&serde_json::to_string_pretty(&value).unwrap());
         assert!(!json.chars().any(|c| c != '\n' && is_hidden(c)), "{json:?}");
         assert_eq!(serde_json::from_str::<serde_json::Value>(&json).unwrap(), value);
+    }
+
+    #[test]
+    fn long_lists_are_counted() {
+        let names: Vec<String> = (0..23).map(|i| format!("n{i}")).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        assert_eq!(listed(&names[..2]), "n0, n1");
+        assert!(listed(&names[..20]).ends_with("n18, n19"));
+        assert!(listed(&names).ends_with("n18, n19 and 3 more"));
     }
 
     #[test]

@@ -7,7 +7,9 @@ pub mod random;
 pub mod scratch;
 pub mod truth;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use gramforge::Generation;
 use gramforge::internals::arm::{Arm, Built};
@@ -38,9 +40,16 @@ pub fn motion(name: &str) -> Motion {
         .expect("a motion without faults")
 }
 
-/// All stages for specification `name`.
-pub fn generation(name: &str) -> Generation {
-    Generation::from_file(&spec(name)).unwrap_or_else(|error| panic!("{error}"))
+/// All stages for specification `name`, made once in a test binary.
+pub fn generation(name: &str) -> Arc<Generation> {
+    static MADE: Mutex<BTreeMap<String, Arc<OnceLock<Arc<Generation>>>>> = Mutex::new(BTreeMap::new());
+    // The lock on all names is not held while one is made; another test that wants the same waits for it.
+    let own =
+        MADE.lock().unwrap_or_else(PoisonError::into_inner).entry(name.to_string()).or_default().clone();
+    own.get_or_init(|| {
+        Generation::from_file(&spec(name)).map(Arc::new).unwrap_or_else(|error| panic!("{error}"))
+    })
+    .clone()
 }
 
 /// All stages for specification `name` with some of its JSON changed.
@@ -87,3 +96,8 @@ pub fn difference<'a>(a: impl IntoIterator<Item = &'a f64>, b: impl IntoIterator
         if apart.is_nan() { f64::INFINITY } else { most.max(apart) }
     })
 }
+
+/// The code of README.md, compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

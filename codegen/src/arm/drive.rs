@@ -3,6 +3,7 @@
 use super::Limits;
 use super::place::Place;
 use crate::error::Diagnostics;
+use crate::number::scientific;
 use crate::spec::{CoulombSpec, DriveSpec, JointKind, LimitsSpec, LinkSpec};
 
 /// Joint-side drive data; `None` where the specification is silent.
@@ -61,7 +62,11 @@ pub(super) fn drive(spec: &DriveSpec, kind: JointKind, place: &Place, faults: &m
     let place = place.at("motor");
     let gear = motor.gear_ratio;
     if gear == 0.0 || !gear.is_finite() {
-        place.at("gear_ratio").fault(faults, format!("is {gear}"), "write the motor turns per joint turn");
+        place.at("gear_ratio").fault(
+            faults,
+            format!("is {}", scientific(gear)),
+            "write the motor turns per joint turn",
+        );
         return out;
     }
     let reflected = |v: f64| v * gear * gear;

@@ -9,6 +9,7 @@ mod frames;
 mod inertial;
 mod intervals;
 mod linkage;
+mod massless;
 mod place;
 mod round;
 mod transform;
@@ -28,7 +29,9 @@ pub use uncertainty::{MOST_PARAMETERS, Parameter, Uncertainty};
 
 use crate::error::Diagnostics;
 use crate::load::Loaded;
+use crate::number::scientific;
 use crate::spec::ArmSpec;
+use crate::text::listed;
 use place::Place;
 
 /// A serial arm of 1 to 8 joints.
@@ -129,9 +132,22 @@ impl Arm {
         let mut warnings = Vec::new();
         let angle = loaded.spec.arm.round_angles.unwrap_or(ROUND_ANGLES);
         if !(0.0..=MOST_ROUNDED).contains(&angle) {
-            faults.push("arm.round_angles", format!("is {angle}"), "write an angle from 0 to 0.1 rad");
+            faults.push(
+                "arm.round_angles",
+                format!("is {}", scientific(angle)),
+                "write an angle from 0 to 0.1 rad",
+            );
         }
         let (arm, uncertainty) = Self::described(loaded, angle, faults, &mut warnings)?;
+        let still = massless::massless(&arm);
+        if !still.is_empty() {
+            warnings.push(format!(
+                "{}: arm: joints that move no mass: {}; their torque is zero. Give mass and inertia to the links that they \
+                 carry (<inertial> in a URDF file), or `armature` to the joints",
+                loaded.path.display(),
+                listed(&still)
+            ));
+        }
         let (given, uncertain) = match angle {
             0.0 => (arm.clone(), uncertainty.clone()),
             _ => Self::rounded_to(loaded, 0.0)?,

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::error::{Diagnostics, located};
+use crate::number::scientific;
 
 /// A field of a file, such as `arm.dh.links[1]` of a specification or `joint[elbow]` of a URDF.
 #[derive(Clone, Debug)]
@@ -59,7 +60,7 @@ impl Place {
         if value.is_finite() {
             return Some(value);
         }
-        self.fault(faults, format!("is {value}"), "write a finite number");
+        self.fault(faults, "is not finite", "write a finite number");
         None
     }
 
@@ -69,7 +70,11 @@ impl Place {
         if value >= 0.0 {
             return Some(value);
         }
-        self.fault(faults, format!("is {value}"), format!("write a number of at least 0, in {unit}"));
+        self.fault(
+            faults,
+            format!("is {}", scientific(value)),
+            format!("write a number of at least 0, in {unit}"),
+        );
         None
     }
 
@@ -79,7 +84,7 @@ impl Place {
         if value > 0.0 {
             return Some(value);
         }
-        self.fault(faults, format!("is {value}"), format!("write a number above 0, in {unit}"));
+        self.fault(faults, format!("is {}", scientific(value)), format!("write a number above 0, in {unit}"));
         None
     }
 }

@@ -78,9 +78,13 @@ pub(super) fn payload(
     out
 }
 
-/// A moment in words: six decimals, or four digits where these would hide it.
+/// A moment in words: six decimals, or four digits where these would hide it or run long.
 fn moment(x: f64) -> String {
-    if x == 0.0 || x.abs() >= 1e-3 { format!("{x:.6}") } else { format!("{x:.3e}") }
+    match x.abs() {
+        0.0 => "0".to_string(),
+        1e-3..1e6 => format!("{x:.6}"),
+        _ => format!("{x:.3e}"),
+    }
 }
 
 fn largest(m: &Matrix) -> f64 {

@@ -115,20 +115,20 @@ impl<'a> Expander<'a> {
         // What the highest orders hold can be less than what is left out in any case.
         let mut order = ORDER;
         while order > LEAST {
-            let (mut simplified_arm, mut slopes) = (0.0, vec![0.0; k]);
+            let (mut dropped, mut slopes) = (0.0, vec![0.0; k]);
             for (c, exponents) in coefficients.iter().zip(&self.monomials[order].exponents) {
                 if degree(exponents) == order {
                     let size = c.abs() * monomial(exponents, &total);
-                    simplified_arm += size;
+                    dropped += size;
                     for i in (0..k).filter(|&i| total[i] > 0.0) {
                         slopes[i] += f64::from(exponents[i]) * size / total[i];
                     }
                 }
             }
-            if remainder + simplified_arm > limit {
+            if remainder + dropped > limit {
                 break;
             }
-            remainder += simplified_arm;
+            remainder += dropped;
             slack.iter_mut().zip(slopes).for_each(|(slack, slope)| *slack += slope);
             let mut exponents = self.monomials[order].exponents.iter();
             coefficients.retain(|_| exponents.next().is_some_and(|e| degree(e) < order));

@@ -28,6 +28,7 @@ mod taylor;
 mod tensors;
 #[cfg(test)]
 mod tests;
+mod tolerance;
 mod torque;
 mod torque_scale;
 mod trig;
@@ -41,6 +42,7 @@ pub use rates::Rates;
 pub use recursion::{beside_expansion, recursion, recursion_rounding, rounded_angles};
 pub use region::position_bound;
 pub(crate) use rounding::{percent_up, printed_down, printed_up, published, vanishing};
+use serde::{Deserialize, Serialize};
 pub use torque::{Met, Torque, peak_torque, separate_error, torque_error, torque_exceeds};
 pub(crate) use torque_scale::SCATTERED;
 pub use torque_scale::TorqueScale;
@@ -111,7 +113,7 @@ impl Effort {
 }
 
 /// A bound on one coefficient, and how sharp it is.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
     /// |α_m − α̂_m| exceeds this nowhere in the domain, evaluation in f64 included.
     pub bound: f64,
@@ -274,7 +276,7 @@ fn vertex(active: &[usize], lagrangian: &Lagrangian, index: usize) -> Vec<f64> {
 }
 
 /// Element-by-element bounds (26)–(28) over a domain, zero where the model is exact.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bounds {
     /// ΔD, n×n.
     pub d: Vec<Vec<f64>>,
@@ -301,20 +303,25 @@ impl Bounds {
             Self { d: vec![zero.clone(); n], h: vec![vec![zero.clone(); n]; n], b: zero.clone(), g: zero };
         for (coefficient, &delta) in lagrangian.coefficients.iter().zip(deltas) {
             for place in &coefficient.places {
-                match place.entry {
-                    Entry::D(i, j) => {
-                        out.d[i][j] = delta;
-                        out.d[j][i] = delta;
-                    }
-                    Entry::H(i, j, k) => {
-                        out.h[i][j][k] = delta;
-                        out.h[i][k][j] = delta;
-                    }
-                    Entry::G(i) => out.g[i] = delta,
-                }
+                out.set(place.entry, delta);
             }
         }
         out
+    }
+
+    /// Sets the bound of one entry, and of that which is equal to it by symmetry.
+    fn set(&mut self, entry: Entry, delta: f64) {
+        match entry {
+            Entry::D(i, j) => {
+                self.d[i][j] = delta;
+                self.d[j][i] = delta;
+            }
+            Entry::H(i, j, k) => {
+                self.h[i][j][k] = delta;
+                self.h[i][k][j] = delta;
+            }
+            Entry::G(i) => self.g[i] = delta,
+        }
     }
 
     /// Those of the certificates; ΔB = 0.
@@ -332,6 +339,11 @@ impl Bounds {
             b: vec![0.0; sizes.gravity.len()],
             g: row(&sizes.gravity),
         }
+    }
+
+    /// The sizes themselves, as bounds on what stands there; ΔB = 0.
+    pub(crate) fn of_sizes(sizes: &Sizes) -> Self {
+        Self::from_sizes(sizes, |size| size.exact)
     }
 
     /// With [`DIGITS`] digits, rounded up: what has to be read by people and stored in firmware needs no more.

@@ -1,14 +1,13 @@
 //! What an emitted model leaves out: certificates, bounds, torque.
 
 use super::{
-    Bounds, Certificate, Effort, Met, Rates, Torque, TorqueScale, certified_telling, percent_up,
-    position_bound, published, recursion, recursion_rounding, torque_error, vanishing, with_sines,
+    Bounds, Certificate, Effort, Met, Rates, Torque, TorqueScale, certified_telling, position_bound,
+    published, recursion, recursion_rounding, torque_error, vanishing, with_sines,
 };
 use crate::arm::{Arm, Uncertainty};
 use crate::domain::Domain;
 use crate::lagrangian::Lagrangian;
 use crate::load::Loaded;
-use crate::number::percent;
 use crate::progress::Progress;
 use crate::reduction::Reduced;
 use crate::spec::Spec;
@@ -85,7 +84,8 @@ impl ModelError<'_> {
         let fraction = self.loaded.spec.model.tolerance().filter(|_| known);
         let proved = fraction.map(|fraction| scale.limits(fraction));
         let error = self.error(certificates, bounds, &scale.rates, proved);
-        Torque { error, peak: scale.peak, rates: scale.rates }
+        let rounding = self.rounding().torque(&scale.rates);
+        Torque { error, peak: scale.peak, rounding, rates: scale.rates }
     }
 
     /// The same at the rates that a law meets.
@@ -115,21 +115,20 @@ impl ModelError<'_> {
             let angles = self.angles.map_or_else(|| vec![0.0; error.len()], |angles| angles.torque(rates));
             error.iter().zip(angles).map(|(error, angles)| error + angles).collect()
         };
-        let rounding = self.rounding(rates);
-        own.iter().zip(rounding).map(|(own, rounding)| (own + rounding).next_up()).collect()
+        let sum = |(own, rounding): (&f64, f64)| {
+            // Where there is nothing to compute, nothing is off.
+            if *own == 0.0 && rounding == 0.0 { 0.0 } else { (own + rounding).next_up() }
+        };
+        own.iter().zip(self.rounding().torque(rates)).map(sum).collect()
     }
 
-    /// Rounding in f64 of what is not simplified, by joint, N·m or N; that of the rest is in its certificates.
-    fn rounding(&self, rates: &Rates) -> Vec<f64> {
+    /// Rounding in f64 of what is not simplified, entry by entry; that of the rest is in its certificates.
+    pub fn rounding(&self) -> Bounds {
         let Self { lagrangian, reduced, domain, .. } = *self;
         let position_bound = position_bound(domain);
-        let n = lagrangian.dof;
-        let recursion = match self.form {
-            Form::Recursive => recursion_rounding(self.arm, &position_bound).torque(rates),
-            Form::Expanded | Form::Sparse => vec![0.0; n],
-        };
+        let recursion = || recursion_rounding(self.arm, &position_bound);
         if self.form == Form::Recursive && reduced.is_exact() {
-            return recursion;
+            return recursion();
         }
         let each: Vec<f64> =
             (0..lagrangian.coefficients.len())
@@ -141,27 +140,13 @@ impl ModelError<'_> {
                     }
                 })
                 .collect();
-        let vanishing = vanishing(lagrangian, &position_bound);
-        let of = |i: usize| -> f64 {
-            let terms = rates.multipliers(lagrangian, i).into_iter().zip(&each).map(|(u, most)| u * most);
-            let zeros = vanishing.iter().map(|&(entry, most)| rates.multiplier(entry, i) * most);
-            recursion[i] + terms.chain(zeros).sum::<f64>()
-        };
-        (0..n).map(|i| of(i).next_up()).collect()
-    }
-
-    /// What is said where a tolerance, kept by the arm as specified, is not kept by all that it may be.
-    pub fn beyond_tolerance(&self, torque: &Torque) -> Option<String> {
-        let fraction = self.loaded.spec.model.tolerance()?;
-        let more = !self.uncertainty.parameters.is_empty() && torque.fraction() > fraction;
-        more.then(|| {
-            format!(
-                "{}: model: the tolerance of {} is kept by the arm as specified; over all that is uncertain the \
-                 certified torque error is {}",
-                self.loaded.path.display(),
-                percent(100.0 * fraction),
-                percent_up(torque.fraction())
-            )
-        })
+        let mut bounds = Bounds::new(lagrangian, &each);
+        for (entry, most) in vanishing(lagrangian, &position_bound) {
+            bounds.set(entry, most);
+        }
+        match self.form {
+            Form::Recursive => bounds.plus(&recursion()),
+            Form::Expanded | Form::Sparse => bounds,
+        }
     }
 }

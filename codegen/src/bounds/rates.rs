@@ -3,9 +3,10 @@
 use crate::arm::Arm;
 use crate::lagrangian::{Absolute, Coefficient, Entry, Lagrangian};
 use crate::motion::Motion;
+use serde::{Deserialize, Serialize};
 
 /// The largest rates that multiply D, h and G in the law, by joint.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rates {
     /// |q̇|, rad/s or m/s.
     pub speed: Vec<f64>,

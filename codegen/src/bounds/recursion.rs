@@ -52,7 +52,9 @@ const MOVES: f64 = 131_072.0;
 /// Bounds on the rounding in f64 of the recursive body of `arm`, where |q_j| ≤ `position_bound` for prismatic joints and sines and
 /// cosines are as good as rounding: a part of the recursion over norms, which bounds whatever is summed on the way.
 pub fn recursion_rounding(arm: &Arm, position_bound: &[f64]) -> Bounds {
-    Bounds::from_sizes(&Sizes::new(arm, position_bound), |size| (gamma(MOVES) * size.exact).next_up())
+    // Where nothing is summed, nothing rounds.
+    let rounding = |size: Size| if size.exact == 0.0 { 0.0 } else { (gamma(MOVES) * size.exact).next_up() };
+    Bounds::from_sizes(&Sizes::new(arm, position_bound), rounding)
 }
 
 /// By coefficient, what the recursive body of `arm` may be off by from `combinations`, its expansion, which lack `lacking`,

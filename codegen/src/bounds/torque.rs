@@ -1,6 +1,7 @@
 //! What the left-out terms can cost in torque.
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::rates::Rates;
 use super::region::{Region, position_bound};
@@ -29,7 +30,7 @@ const TOLERANCE: f64 = 0.02;
 const INSTANTS: u32 = 1000;
 
 /// Torque errors and what they are compared with.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Torque {
     /// Certified bound on the torque error by joint, N·m or N, for rates up to the motion's own, over a workspace up to
     /// the joints' limits.
@@ -37,6 +38,8 @@ pub struct Torque {
     /// Largest torque of the exact model found by joint, N·m or N: along the motion, or over the workspace at the same
     /// rates. It is attained, so the true peak is no smaller, and the error no larger a part of it.
     pub peak: Vec<f64>,
+    /// The part of the error that is rounding in f64, N·m or N.
+    pub rounding: Vec<f64>,
     /// The rates for which the error holds.
     pub rates: Rates,
 }
@@ -51,10 +54,19 @@ pub struct Met {
 }
 
 impl Torque {
-    /// The largest error as a fraction of its joint's peak torque.
+    /// The largest error as a fraction of its joint's peak torque; infinite where a joint takes no torque but rounding.
     pub fn fraction(&self) -> f64 {
-        let part = |(error, peak): (&f64, &f64)| if *error == 0.0 { 0.0 } else { error / peak };
-        self.error.iter().zip(&self.peak).map(part).fold(0.0, f64::max)
+        let part = |i: usize| match self.error[i] {
+            0.0 => 0.0,
+            _ if self.is_still(i) => f64::INFINITY,
+            error => error / self.peak[i],
+        };
+        (0..self.error.len()).map(part).fold(0.0, f64::max)
+    }
+
+    /// Whether joint `i` takes no torque that can be told from rounding.
+    pub fn is_still(&self, i: usize) -> bool {
+        self.peak[i] <= self.rounding[i]
     }
 }
 

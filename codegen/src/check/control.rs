@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use super::shape::entries;
 use crate::error::Diagnostics;
+use crate::number::scientific;
 use crate::spec::{ControlSpec, CoriolisTermSpec, LawSpec, MatrixSpec};
 use crate::text::has;
 
@@ -14,7 +15,7 @@ const SLACK: f64 = 1e-9;
 /// symmetric and element-wise nonnegative.
 pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut Diagnostics) {
     if let Some(period) = control.period.filter(|period| *period <= 0.0) {
-        faults.push("control.period", format!("is {period}"), "write a number above 0, in s");
+        faults.push("control.period", format!("is {}", scientific(period)), "write a number above 0, in s");
     }
     if let Some(layer) = &control.boundary_layer {
         let wanted = "a number above 0, or leave the field out for the sign function";
@@ -84,12 +85,16 @@ fn definite(
         "write a positive number, a list of positive numbers or a symmetric positive definite matrix";
     match spec {
         MatrixSpec::Scalar(value) if *value <= 0.0 => {
-            faults.push(field, format!("is {value}"), wanted);
+            faults.push(field, format!("is {}", scientific(*value)), wanted);
             return None;
         }
         MatrixSpec::Diagonal(list) if list.iter().any(|v| *v <= 0.0) => {
             for (i, value) in list.iter().enumerate().filter(|(_, v)| **v <= 0.0) {
-                faults.push(format!("{field}[{i}]"), format!("is {value}"), "write a positive number");
+                faults.push(
+                    format!("{field}[{i}]"),
+                    format!("is {}", scientific(*value)),
+                    "write a positive number",
+                );
             }
             return None;
         }

@@ -2,6 +2,7 @@
 
 use super::shape::entries;
 use crate::error::Diagnostics;
+use crate::number::scientific;
 use crate::spec::{ControlSpec, MeasureSpec, Spec, VectorSpec};
 
 /// Convergence times and periods that an arm may have, s.
@@ -66,7 +67,12 @@ pub(super) fn check(control: &ControlSpec, spec: &Spec, joints: Option<usize>, f
             VectorSpec::Scalar(_) => "control.design.tube".to_string(),
             VectorSpec::List(_) => format!("control.design.tube[{i}]"),
         };
-        let problem = format!("is {wanted}, and the bounds hold only up to {widest} of joint {}", i + 1);
+        let problem = format!(
+            "is {}, and the bounds hold only up to {} of joint {}",
+            scientific(*wanted),
+            scientific(*widest),
+            i + 1
+        );
         faults.push(
             field,
             problem,

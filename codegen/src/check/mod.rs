@@ -16,6 +16,7 @@ use crate::arm::{Arm, Built, MOST_JOINTS};
 use crate::error::{Diagnostic, Diagnostics, Error};
 use crate::load::{Draft, Loaded, draft};
 use crate::motion::Motion;
+use crate::number::scientific;
 use crate::spec::{DictionarySpec, LawSpec, ModelSpec, Spec, TrigSpec};
 use crate::trig::{COARSEST, FINEST};
 
@@ -122,7 +123,7 @@ fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Diagnostics) -> Option
         }
         ModelSpec::Tolerance { torque } if !(*torque > 0.0 && *torque < 1.0) => {
             let help = "write a fraction of the peak torque above 0 and below 1, such as 0.01";
-            faults.push("model.tolerance.torque", format!("is {torque}"), help);
+            faults.push("model.tolerance.torque", format!("is {}", scientific(*torque)), help);
         }
         ModelSpec::Shared { .. }
         | ModelSpec::Separate { .. }
@@ -137,11 +138,15 @@ fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Diagnostics) -> Option
     {
         let help =
             format!("write a number from {FINEST:e} to {COARSEST}, or \"polynomial\" in place of the table");
-        faults.push("emit.trig.table.error", format!("is {error}"), help);
+        faults.push("emit.trig.table.error", format!("is {}", scientific(error)), help);
     }
     going_together(spec, faults);
     if let Some(duration) = spec.simulation.duration.filter(|v| *v <= 0.0) {
-        faults.push("simulation.duration", format!("is {duration}"), "write a number above 0, in s");
+        faults.push(
+            "simulation.duration",
+            format!("is {}", scientific(duration)),
+            "write a number above 0, in s",
+        );
     }
     if spec.simulation.substeps == Some(0) {
         faults.push("simulation.substeps", "is 0", "write a whole number of at least 1");
@@ -149,7 +154,7 @@ fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Diagnostics) -> Option
     motion
 }
 
-/// What mends a model that does not go with the rest.
+/// The help for a model that does not go with the rest.
 const MODEL: &str = "write `model` as {\"shared\": {\"functions\": N}} or \"exact\"";
 const HARMONIC: &str = "leave out `dictionary`";
 

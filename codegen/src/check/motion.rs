@@ -4,7 +4,8 @@ use super::shape::length;
 use crate::arm::Arm;
 use crate::error::Diagnostics;
 use crate::load::Loaded;
-use crate::motion::{Motion, check_limits};
+use crate::motion::{LONGEST, Motion, check_limits};
+use crate::number::scientific;
 use crate::spec::MotionSpec;
 use crate::text::has;
 
@@ -39,7 +40,7 @@ fn fields(motion: &MotionSpec, joints: Option<usize>, faults: &mut Diagnostics) 
         MotionSpec::Quintic { from, to, duration } => {
             length("motion.quintic.from", from.len(), joints, faults);
             length("motion.quintic.to", to.len(), joints, faults);
-            positive("motion.quintic.duration", *duration, faults);
+            seconds("motion.quintic.duration", *duration, faults);
         }
         MotionSpec::Waypoints { times, positions } => waypoints(times, positions, joints, faults),
         MotionSpec::Sinusoids { offset, terms, duration } => {
@@ -48,7 +49,7 @@ fn fields(motion: &MotionSpec, joints: Option<usize>, faults: &mut Diagnostics) 
             for (i, terms) in terms.iter().enumerate() {
                 at_most(&format!("motion.sinusoids.terms[{i}]"), terms.len(), MOST_SINUSOIDS, faults);
             }
-            positive("motion.sinusoids.duration", *duration, faults);
+            seconds("motion.sinusoids.duration", *duration, faults);
         }
         MotionSpec::Csv { file } if file.is_empty() => {
             faults.push(
@@ -68,15 +69,19 @@ fn waypoints(times: &[f64], positions: &[Vec<f64>], joints: Option<usize>, fault
         faults.push(field, has(times.len()), "write at least 2 times");
     }
     if let Some(first) = times.first().filter(|t| **t != 0.0) {
-        faults.push(format!("{field}[0]"), format!("is {first}"), "start at 0");
+        faults.push(format!("{field}[0]"), format!("is {}", scientific(*first)), "start at 0");
     }
     for (i, pair) in times.windows(2).enumerate() {
         if let [before, after] = pair
             && after <= before
         {
-            let problem = format!("is {after}, after {before}");
+            let problem = format!("is {}, after {}", scientific(*after), scientific(*before));
             faults.push(format!("{field}[{}]", i + 1), problem, "let the times rise");
         }
+    }
+    if let Some(last) = times.last().filter(|last| **last > LONGEST) {
+        let field = format!("{field}[{}]", times.len() - 1);
+        faults.push(field, format!("is {last:e}"), format!("write at most {LONGEST:e}, in s"));
     }
     if positions.len() != times.len() {
         let problem = has(positions.len());
@@ -97,8 +102,10 @@ fn at_most(field: &str, found: usize, most: usize, faults: &mut Diagnostics) {
     }
 }
 
-fn positive(field: &str, value: f64, faults: &mut Diagnostics) {
+fn seconds(field: &str, value: f64, faults: &mut Diagnostics) {
     if value <= 0.0 {
-        faults.push(field, format!("is {value}"), "write a number above 0, in s");
+        faults.push(field, format!("is {}", scientific(value)), "write a number above 0, in s");
+    } else if value > LONGEST {
+        faults.push(field, format!("is {value:e}"), format!("write at most {LONGEST:e}, in s"));
     }
 }

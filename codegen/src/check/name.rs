@@ -32,7 +32,7 @@ pub(super) fn check(name: &str, faults: &mut Diagnostics) {
     }
 }
 
-/// Problem and mend of a name that cannot name a module.
+/// Problem and help for a name that cannot name a module.
 fn refusal(name: &str) -> Option<(String, &'static str)> {
     const OTHER: &str = "choose another name";
     let letters = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';

@@ -1,6 +1,7 @@
 //! Lists that need one entry for each joint.
 
 use crate::error::Diagnostics;
+use crate::number::scientific;
 use crate::spec::VectorSpec;
 use crate::text::has;
 
@@ -26,13 +27,17 @@ pub(super) fn entries(
 ) {
     match spec {
         VectorSpec::Scalar(value) if !good(*value) => {
-            faults.push(field, format!("is {value}"), format!("write {wanted}"));
+            faults.push(field, format!("is {}", scientific(*value)), format!("write {wanted}"));
         }
         VectorSpec::Scalar(_) => {}
         VectorSpec::List(list) => {
             length(field, list.len(), joints, faults);
             for (i, value) in list.iter().enumerate().filter(|(_, v)| !good(**v)) {
-                faults.push(format!("{field}[{i}]"), format!("is {value}"), format!("write {wanted}"));
+                faults.push(
+                    format!("{field}[{i}]"),
+                    format!("is {}", scientific(*value)),
+                    format!("write {wanted}"),
+                );
             }
         }
     }

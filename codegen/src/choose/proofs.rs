@@ -11,7 +11,7 @@ use crate::reduction::Reduced;
 const EFFORT: Effort = Effort { tolerance: 0.03, boxes: 2000, starts: 3, seek_tube: false };
 /// Around a motion, where the sum of the coefficients' largest errors exceeds the limit by more than this, the sharper
 /// sum of the errors at the same position is not tried: its proof would not end.
-const HOPELESS: f64 = 1.8;
+const SEPARATE_MOST: f64 = 1.8;
 
 /// A coefficient, what it is made of, and what it can round by.
 type Key = (usize, Vec<(usize, u64)>, [u64; 3]);
@@ -34,7 +34,7 @@ impl Proofs {
         let exceeds = || torque_exceeds(lagrangian, reduced, domain, &certificates, &scale.rates, limits);
         let hopeful = match domain {
             Domain::Workspace(_) => true,
-            _ => part <= HOPELESS,
+            _ => part <= SEPARATE_MOST,
         };
         part <= 1.0 || !request.is_long() && hopeful && exceeds().is_none()
     }

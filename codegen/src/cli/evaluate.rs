@@ -10,6 +10,7 @@ use super::{json, show_warnings};
 use crate::arm::Arm;
 use crate::error::{Diagnostics, Error};
 use crate::graph::Graph;
+use crate::load::read_text;
 use crate::pipeline::Generation;
 use crate::torque::matrices;
 
@@ -116,7 +117,7 @@ fn evaluation(arm: &Arm, code: &Graph, state: &State, friction: bool) -> Evaluat
 
 fn read(path: &Path, dof: usize) -> Result<Vec<State>, Error> {
     let wanted = "give a JSON array of objects {\"q\": […], \"qd\": […], \"qdd\": […]}";
-    let text = std::fs::read_to_string(path)
+    let text = read_text(path)
         .map_err(|error| Error::input(path, "", format!("cannot be read ({error})"), wanted))?;
     let mut states: Vec<State> = serde_json::from_str(&text)
         .map_err(|error| Error::input(path, "", format!("is not a list of states ({error})"), wanted))?;

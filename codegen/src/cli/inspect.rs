@@ -85,7 +85,7 @@ struct BoundsView<'a> {
     B: Vec<Vec<f64>>,
     /// ΔC of equation (30); absent without a controller.
     C: Option<&'a [Vec<f64>]>,
-    /// Largest bound/found over the simplified coefficients, dust apart.
+    /// Largest bound/found over the simplified coefficients, negligible ones apart.
     worst_ratio: f64,
     /// Equation (11); absent over a workspace.
     estimate: Option<EstimateView>,

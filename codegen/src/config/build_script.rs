@@ -2,27 +2,56 @@
 
 use std::io::{self, Write};
 use std::path::Path;
+use std::time::{Duration, Instant};
 
+use super::Config;
+use super::made::Made;
 use super::modules::Modules;
-use super::{Config, Output};
+use crate::cache::Cache;
 use crate::check::is_module_name;
 use crate::error::Error;
 use crate::load::Loaded;
 use crate::text::escaped;
 
+/// An unoptimised generator that takes longer is worth a word.
+const LONG: Duration = Duration::from_secs(5);
+/// How the generator is compiled.
+const OPT_LEVEL: &str = env!("GRAMFORGE_OPT_LEVEL");
+
 /// Generates the modules of `config` and writes directives for cargo to `out`; whether everything went well.
 pub(super) fn run(config: &Config, out: &mut impl Write) -> bool {
+    let start = Instant::now();
     let loaded = config.load();
     // Told before the work begins: they must stand, too, where it fails or is interrupted.
     let told = watch(config, &loaded, out);
     let names: Vec<String> = loaded.iter().filter_map(module_name).collect();
     let result = config.folder().and_then(|folder| {
         let modules = Modules::in_folder(&folder);
-        let written = config.build(loaded).and_then(|outputs| modules.publish(&outputs).map(|()| outputs));
+        let cache = modules.kept().filter(|_| !config.uncached).and_then(Cache::below);
+        let made = config.make(loaded, cache.as_ref());
+        // Of a specification that is broken for a while the entries stay.
+        if let (Some(cache), Ok(_)) = (&cache, &made) {
+            cache.sweep();
+        }
+        let written = made.and_then(|made| modules.publish(&made).map(|()| made));
         written.inspect_err(|error| modules.spoil(&names, &error.to_string()))
     });
     let done = result.is_ok();
+    let told = told.and_then(|()| slow(start.elapsed(), out));
     told.and_then(|()| conclude(result, out)).is_ok() && done
+}
+
+/// Warns where the generator took long and is not optimised, as cargo compiles build scripts.
+fn slow(taken: Duration, out: &mut impl Write) -> io::Result<()> {
+    if taken < LONG || !matches!(OPT_LEVEL, "0" | "1") {
+        return Ok(());
+    }
+    let seconds = taken.as_secs();
+    let advice = format!(
+        "Gramforge took {seconds} s, compiled with opt-level {OPT_LEVEL}; write `opt-level = 3` in `[profile.dev.build-override]` and \
+         `[profile.release.build-override]` of Cargo.toml, and it takes a few"
+    );
+    directive(out, "cargo:warning=", &advice)
 }
 
 /// Tells cargo which files to watch.
@@ -30,7 +59,7 @@ fn watch(config: &Config, loaded: &[Result<Loaded, Error>], out: &mut impl Write
     let mut watched = |path: &Path| directive(out, "cargo:rerun-if-changed=", &path.to_string_lossy());
     for (spec, loaded) in config.specs.iter().zip(loaded) {
         watched(spec)?;
-        // A faulty specification still names files whose mending must rerun the script.
+        // A faulty specification still names files that must rerun the script once they are corrected.
         for named in loaded.iter().flat_map(|loaded| &loaded.named) {
             watched(&named.path)?;
         }
@@ -39,10 +68,10 @@ fn watch(config: &Config, loaded: &[Result<Loaded, Error>], out: &mut impl Write
 }
 
 /// Tells cargo warnings or faults.
-fn conclude(result: Result<Vec<Output>, Error>, out: &mut impl Write) -> io::Result<()> {
+fn conclude(result: Result<Vec<Made>, Error>, out: &mut impl Write) -> io::Result<()> {
     match result {
-        Ok(outputs) => {
-            for warning in outputs.iter().flat_map(|output| output.generation.warnings()) {
+        Ok(all) => {
+            for warning in all.iter().flat_map(|made| &made.text.warnings) {
                 directive(out, "cargo:warning=", warning)?;
             }
         }

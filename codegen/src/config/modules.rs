@@ -8,9 +8,10 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use super::Output;
+use super::made::Made;
 use crate::emit::spoilt;
 use crate::error::Error;
+use crate::load::read_text;
 use crate::output::{Wanted, write_all};
 
 /// Name of the list: a JSON array of paths relative to its folder.
@@ -38,15 +39,20 @@ impl Modules {
         Self { folder: folder.to_path_buf(), kept, old }
     }
 
-    /// Writes `outputs`, and removes what no specification gives any more.
+    /// `OUT_DIR`, where the folder lies in it.
+    pub fn kept(&self) -> Option<&Path> {
+        self.kept.as_deref()
+    }
+
+    /// Writes the modules of `made`, and removes what no specification gives any more.
     ///
     /// # Errors
     /// As [`write_all`].
-    pub fn publish(&self, outputs: &[Output]) -> Result<(), Error> {
-        let modules: Vec<Wanted> = outputs.iter().map(Output::wanted).collect();
+    pub fn publish(&self, made: &[Made]) -> Result<(), Error> {
+        let modules: Vec<Wanted> = made.iter().map(Made::wanted).collect();
         let Some(out_dir) = &self.kept else { return write_all(&modules).map(drop) };
         let mut written = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
-        written.extend(outputs.iter().filter_map(|output| relative(out_dir, &output.path)));
+        written.extend(made.iter().filter_map(|made| relative(out_dir, &made.module)));
         // Listed before they are there and until they are gone: an interruption must not let one be forgotten.
         let list = out_dir.join(LIST);
         let all = text(self.old.union(&written));
@@ -83,7 +89,7 @@ impl Modules {
 
 /// The list's paths that lie in `out_dir`; nothing where there is no list.
 fn listed(out_dir: &Path) -> BTreeSet<PathBuf> {
-    let text = fs::read_to_string(out_dir.join(LIST)).unwrap_or_default();
+    let text = read_text(&out_dir.join(LIST)).unwrap_or_default();
     let paths: Vec<PathBuf> = serde_json::from_str(&text).unwrap_or_default();
     let inside = |path: &PathBuf| {
         path.components().all(|part| matches!(part, Component::Normal(_)))

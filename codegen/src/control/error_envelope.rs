@@ -3,6 +3,7 @@
 use super::adaptation::Learning;
 use super::form::{Form, InertiaBounds};
 use super::gains::Gains;
+use super::rounding::{Rounding, Working};
 use crate::bounds::{Bounds, Rates};
 use crate::error::Error;
 use crate::numerics::linalg::weighed;
@@ -32,6 +33,8 @@ pub(super) struct Load {
     pub(super) gain: Vec<f64>,
     /// sup|Yθ_e|, N·m: what a layer that teaches nothing leaves of the wrong parameters.
     pub(super) taught: Vec<f64>,
+    /// What rounding does to the torque, N·m or N: no switching gain outweighs it.
+    pub(super) rounding: Vec<f64>,
     /// The part of zᵀMz that the Euler steps of the learning take back.
     step: f64,
 }
@@ -48,6 +51,7 @@ pub(super) struct ClosedLoop<'a> {
     pub(super) speed: Vec<f64>,
     pub(super) acceleration: Vec<f64>,
     pub(super) disturbance: &'a [f64],
+    pub(super) rounding: &'a Rounding<'a>,
     pub(super) layer: Option<&'a [f64]>,
     pub(super) period: f64,
     /// Change of the feedforward torque during one period.
@@ -108,7 +112,16 @@ impl ClosedLoop<'_> {
         let (rates, s) = self.rates(position, velocity);
         let gain = self.robust_gain(&rates, &s, delta_c);
         let learning = self.learning.as_ref();
+        let working = Working {
+            gains: self.gains,
+            period: self.period,
+            rates: &rates,
+            s: &s,
+            position_error: position,
+            robust_gain: &gain,
+        };
         Load {
+            rounding: self.rounding.torque(&working),
             gain,
             taught: learning.map_or(vec![0.0; n], |learning| learning.torque(&rates)),
             step: learning
@@ -136,16 +149,16 @@ impl ClosedLoop<'_> {
     /// The level of V above which V̇ < 0 (for a law that learns V̇1 < 0), J.
     ///
     /// V̇ ≤ −zᵀMz + c + hᵀ|s| with c = Σρ_iφ_i/4 from the layer and h the torque that nothing outweighs: the lag of a
-    /// held torque, and under law (16) the whole error of the model. So V̇ < 0 where √(zᵀMz) > x, x² = c + xη,
+    /// held torque, rounding, and under law (16) the whole error of the model. So V̇ < 0 where √(zᵀMz) > x, x² = c + xη,
     /// η² = hᵀ|(M⁻¹)_ss|h, and 2V ≤ λ_max(M⁻¹ diag(D, Pqq)) zᵀMz. Where Euler steps take back a part ε of zᵀMz,
     /// (1 − ε)x² = c + xη.
     ///
     /// A joint inside its layer teaches nothing, so there s_i(Yθ_e)_i stays: with y = sup|Yθ_e|_i the layer costs
     /// max (ρ + y)|s| − ρs²/φ over |s| ≤ φ, which is φ(ρ + y)²/4ρ, or φy where y > ρ.
     pub(super) fn ultimate_bound(&self, load: &Load, chatter: bool) -> f64 {
-        let Load { gain, taught, step } = load;
+        let Load { gain, taught, rounding, step } = load;
         let mut c = 0.0;
-        let mut h = self.lag.clone();
+        let mut h: Vec<f64> = self.lag.iter().zip(rounding).map(|(lag, more)| lag + more).collect();
         match (self.law, self.layer) {
             (LawSpec::Exact, _) => h.iter_mut().zip(gain).for_each(|(h, rho)| *h += rho),
             (_, Some(phi)) => {

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use crate::arm::{Arm, Uncertainty};
 use crate::dynamics::{Jet, enclosed_positions, passivity_torque};
 use crate::motion::{Motion, Span};
+use crate::number::{decimal, scientific};
 use crate::numerics::Interval;
 
 /// Pieces of the motion to begin with.
@@ -107,7 +108,9 @@ impl Feedforward {
                 let limit = limit.filter(|&limit| bound >= limit)?;
                 let (may, taken) = if seen >= limit { ("takes", seen) } else { ("may take", bound) };
                 Some(format!(
-                    "the desired motion {may} {taken:.4} of joint {number}, its torque limit is {limit}"
+                    "the desired motion {may} {} of joint {number}, its torque limit is {}",
+                    decimal(taken, 4),
+                    scientific(limit)
                 ))
             })
             .collect()

@@ -32,17 +32,17 @@ pub(super) fn tune(stage: &Stage, request: &GainRequest) -> Result<Tuning, Error
     let periods = request.period.map_or(PERIODS.to_vec(), |period| vec![period]);
     let told = progress::Stage::new(progress, "search for gains", periods.len());
     let scene = Scene::new(stage, &target);
-    let mut hopeless = outside(domain, motion, arm, &vec![0.0; n]);
+    let mut obstacles = outside(domain, motion, arm, &vec![0.0; n]);
     let taken = stage.feedforward.as_ref();
-    hopeless.extend(taken.map_or(Vec::new(), |taken| taken.beyond_limits(arm, &stage.coulomb)));
+    obstacles.extend(taken.map_or(Vec::new(), |taken| taken.beyond_limits(arm, &stage.coulomb)));
     let closed = (1..).zip(&own).filter(|(_, room)| **room <= 0.0);
-    hopeless.extend(closed.map(|(number, _)| format!("joint {number} has no room for errors")));
+    obstacles.extend(closed.map(|(number, _)| format!("joint {number} has no room for errors")));
     if !scene.certified {
-        hopeless.push("the bounds on D over the domain cannot be certified".to_string());
+        obstacles.push("the bounds on D over the domain cannot be certified".to_string());
     }
-    if !hopeless.is_empty() {
+    if !obstacles.is_empty() {
         let help = "change the motion, the measure or the limits: no gains alter that";
-        faults.push("control.design", format!("cannot be met: {}", hopeless.join("; ")), help);
+        faults.push("control.design", format!("cannot be met: {}", obstacles.join("; ")), help);
         return Err(faults.into_error());
     }
     let start = &stage.problem.control.initial_error.position;

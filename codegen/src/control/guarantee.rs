@@ -7,6 +7,7 @@ use super::form::{Fastest, Form, InertiaBounds, fastest, inertia_bounds, initial
 use super::inertia::Inertia;
 use super::limits::Longest;
 use super::region::{cells, outside, position_bound, start};
+use super::rounding::Rounding;
 use super::{DesignProblem, family};
 use crate::bounds::Rates;
 use crate::check::InitialError;
@@ -33,7 +34,8 @@ pub struct Guarantee {
     /// slope ρ/φ inside the layer and what is learnt within a period. The sign function has no slope to count: its
     /// chatter counts in `final_error`.
     pub period_max: f64,
-    /// What |q_e| ends below, by joint, rad or m.
+    /// Bound on |q_e| by joint, rad or m, once the effect of the initial errors has died away: a short motion may end
+    /// before that. Rounding in f64 is counted, so it is 0 only where nothing is computed.
     pub final_error: Vec<f64>,
     /// Largest initial position error for which the domain is enough, by joint, rad or m: the specification's own, or
     /// the tube where it names none, scaled; the initial velocity error as specified.
@@ -71,6 +73,8 @@ pub(super) struct Parts<'a> {
     pub(super) feedforward: Option<&'a Feedforward>,
     /// Coulomb friction that the command compensates.
     pub(super) coulomb: &'a [[f64; 2]],
+    /// What rounds.
+    pub(super) rounding: &'a Rounding<'a>,
     pub(super) tuning: &'a crate::check::Tuning,
     pub(super) adaptation: Option<&'a Adaptation>,
     /// The bounds on D, where the same gains were judged before.
@@ -205,6 +209,7 @@ impl Parts<'_> {
             speed: motion.map_or_else(|| limit(|l| l.velocity), |m| m.largest_speed()),
             acceleration: motion.map_or_else(|| limit(|l| l.acceleration), |m| m.largest_acceleration()),
             disturbance: self.disturbance,
+            rounding: self.rounding,
             layer: self.layer(),
             period: self.tuning.period,
             lag: self.feedforward.map_or_else(

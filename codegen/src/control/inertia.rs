@@ -94,17 +94,15 @@ impl Member {
             let terms = varied.fold(coefficient.terms.clone(), |sum, (&u, v)| plus(&sum, u, v));
             let errors = coefficient.errors.iter().map(|accuracy| accuracy.error);
             let sizes = std::iter::once(1.0).chain(u.iter().map(|u| u.abs()));
-            let simplified_arm =
-                bent * largest_monomial * errors.zip(sizes).map(|(e, size)| e * size).sum::<f64>();
+            let dropped = bent * largest_monomial * errors.zip(sizes).map(|(e, size)| e * size).sum::<f64>();
             for place in &coefficient.places {
                 let Entry::D(i, j) = place.entry else { continue };
                 for (index, entries) in curvature.iter_mut().enumerate() {
                     let bend = |(psi, value): &(usize, f64)| {
                         value.abs() * second(&lagrangian.functions[*psi], index / n, index % n)
                     };
-                    let sum = none(i * n + j)
-                        + simplified_arm
-                        + terms.iter().map(bend).sum::<f64>() * (1.0 + SUMMED);
+                    let sum =
+                        none(i * n + j) + dropped + terms.iter().map(bend).sum::<f64>() * (1.0 + SUMMED);
                     entries[i * n + j] = sum;
                     entries[j * n + i] = sum;
                 }

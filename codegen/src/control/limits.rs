@@ -4,7 +4,7 @@ use super::DesignProblem;
 use super::error_envelope::ClosedLoop;
 use super::first_step::{Start, asked};
 use super::guarantee::Parts;
-use crate::number::short;
+use crate::number::{scientific, short};
 
 /// The longest period, s, and whether nothing in the domain is faster than it supposes.
 pub(super) struct Longest {
@@ -22,12 +22,20 @@ impl Parts<'_> {
                 .then(|| format!("the bounds on D over the domain could not be certified: {narrow}")),
             (period >= most).then(|| {
                 let most = short(most);
-                format!("the period of {period} s is longer than the {most} s up to which the sampled loop is stable")
+                format!(
+                    "the period of {} s is longer than the {most} s up to which the sampled loop is stable",
+                    scientific(period)
+                )
             }),
-            (!longest.certified)
-                .then(|| format!("the longest period of {} s could not be certified over the domain: {narrow}", short(most))),
+            (!longest.certified).then(|| {
+                format!(
+                    "the longest period of {} s could not be certified over the domain: {narrow}",
+                    short(most)
+                )
+            }),
             self.feedforward.is_none().then(|| {
-                "without a motion nothing says how fast the torque changes that is held for a period".to_string()
+                "without a motion nothing says how fast the torque changes that is held for a period"
+                    .to_string()
             }),
         ];
         said.into_iter().flatten().collect()
@@ -74,8 +82,9 @@ impl Parts<'_> {
                 .is_some_and(|taken| taken.torque[number - 1] + friction(number - 1) >= limit);
             if asked >= limit && !said {
                 reasons.push(format!(
-                    "the initial errors may ask {} of joint {number} in the first step, its torque limit is {limit}",
-                    short(asked)
+                    "the initial errors may ask {} of joint {number} in the first step, its torque limit is {}",
+                    short(asked),
+                    scientific(limit)
                 ));
             }
         }

@@ -12,6 +12,7 @@ mod guarantee;
 mod inertia;
 mod limits;
 mod region;
+mod rounding;
 mod search;
 mod settling;
 #[cfg(test)]
@@ -41,6 +42,7 @@ use crate::progress::{self, Progress};
 use crate::reduction::Regression;
 use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec};
 use feedforward::Feedforward;
+use rounding::Rounding;
 
 /// Everything a controller needs beside its model.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,6 +103,8 @@ pub struct DesignProblem<'a> {
     pub lagrangian: &'a Lagrangian,
     /// What the reduced model leaves out over the domain.
     pub bounds: &'a Bounds,
+    /// What the model's code rounds by in f64, beside what `bounds` hold of it.
+    pub rounding: &'a Bounds,
     /// Where the bounds hold.
     pub domain: &'a Domain,
     /// The desired motion.
@@ -167,6 +171,8 @@ struct Stage<'a> {
     feedforward: Option<Feedforward>,
     /// Coulomb friction that the command compensates, forwards and backwards, by joint.
     coulomb: Vec<[f64; 2]>,
+    /// What rounds.
+    rounding: Rounding<'a>,
 }
 
 impl<'a> Stage<'a> {
@@ -182,10 +188,12 @@ impl<'a> Stage<'a> {
         };
         let (own, family) = problem.given;
         let along = |motion| Feedforward::new(own, family, motion);
+        let coulomb: Vec<[f64; 2]> = arm.joints.iter().map(coulomb).collect();
         Ok(Self {
             problem,
             feedforward: problem.motion.map(along),
-            coulomb: arm.joints.iter().map(coulomb).collect(),
+            rounding: Rounding::new(problem, &coulomb),
+            coulomb,
             adaptation: Adaptation::new(problem)?,
             disturbance: arm.joints.iter().map(disturbance).collect(),
         })
@@ -220,6 +228,7 @@ impl<'a> Stage<'a> {
             disturbance: &self.disturbance,
             feedforward: self.feedforward.as_ref(),
             coulomb: &self.coulomb,
+            rounding: &self.rounding,
             tuning,
             adaptation: self.adaptation.as_ref(),
             facts,

@@ -4,6 +4,7 @@ use super::inertia::Cell;
 use crate::arm::{Arm, JointKind};
 use crate::domain::Domain;
 use crate::motion::Motion;
+use crate::number::{decimal, scientific};
 
 /// Fewest and most pieces of a motion.
 const PIECES: [f64; 2] = [16.0, 200.0];
@@ -41,10 +42,10 @@ pub(super) fn outside(domain: &Domain, motion: Option<&Motion>, arm: &Arm, error
         let of = |i: usize| {
             exceeds(error[i], width[i]).then(|| {
                 format!(
-                    "the error of joint {} may reach {:.4}, the tube holds {:.4}",
+                    "the error of joint {} may reach {}, the tube holds {}",
                     i + 1,
-                    error[i],
-                    width[i]
+                    decimal(error[i], 4),
+                    decimal(width[i], 4)
                 )
             })
         };
@@ -65,10 +66,12 @@ pub(super) fn outside(domain: &Domain, motion: Option<&Motion>, arm: &Arm, error
         let low = path.iter().map(|c| c.centre[i] - c.half[i]).fold(f64::MAX, f64::min);
         (!turns(i) && (exceeds(high - limits[i][1], 0.0) || exceeds(limits[i][0] - low, 0.0))).then(|| {
             format!(
-                "with its error joint {} may reach [{low:.4}, {high:.4}], beyond its limits [{}, {}]",
+                "with its error joint {} may reach [{}, {}], beyond its limits [{}, {}]",
                 i + 1,
-                limits[i][0],
-                limits[i][1]
+                decimal(low, 4),
+                decimal(high, 4),
+                scientific(limits[i][0]),
+                scientific(limits[i][1])
             )
         })
     };

@@ -4,7 +4,7 @@
 //! V_s = ½ sᵀDs alone has V̇_s ≤ −Σ f_i(|s_i|) + c with f_i(x) = K_i x² − b_i x − ρ_i x (1 − x/φ_i)₊: b_i is the torque
 //! that nothing outweighs (of a law that learns all that wrong parameters in their box do) and what Pqq pulls at the
 //! errors there are, c the chatter of a held sign. So V_s ends below its largest value where Σ f_i ≤ c, each |q_e,i|
-//! below |s_i|/P12_ii, and with smaller errors all of that shrinks again.
+//! below |s_i|/P12_ii, and with smaller errors all of that shrinks again, down to what rounding leaves.
 
 use nalgebra::DMatrix;
 
@@ -105,10 +105,10 @@ impl ClosedLoop<'_> {
 
     /// What takes energy from each joint and what gives it, without its part in D, and the chatter.
     fn shares(&self, position: &[f64], load: &Load) -> (Vec<Share>, f64) {
-        let Load { gain: rho, taught, .. } = load;
+        let Load { gain: rho, taught, rounding, .. } = load;
         let robust = self.law.is_robust();
         let share = |i: usize| {
-            let pull = weighed(&self.gains.pqq[i], position) + self.lag[i] + taught[i];
+            let pull = weighed(&self.gains.pqq[i], position) + self.lag[i] + rounding[i] + taught[i];
             let b = if robust { pull } else { pull + rho[i] };
             let (rho, phi) = match self.layer {
                 Some(phi) if robust => (rho[i], phi[i]),

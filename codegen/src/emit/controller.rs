@@ -35,7 +35,8 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
         /// Periods below this keep the sampled loop stable at every D of the domain, held still, s.
         #constant
         pub const PERIOD_MAX: f64 = #period_max;
-        /// What |q − q_d| ends below if [`GUARANTEED`], by joint, rad or m; means nothing otherwise.
+        /// Bound on |q − q_d| by joint, rad or m, once the effect of the initial errors has died away. A short motion may end
+        /// before that. The bound holds only where [`GUARANTEED`] is true.
         #constant
         pub const FINAL_ERROR: [f64; #n] = #final_error;
         /// Period, torque limits and fault policy.

@@ -271,8 +271,11 @@ pub(crate) fn torque(torque: &Torque) -> String {
         torque.peak.iter().map(|&p| printed_down(p)).collect::<Vec<_>>().join(", "),
         if fraction.is_finite() {
             format!(", that is {} in the worst joint", percent_up(fraction))
-        } else {
+        } else if torque.peak.contains(&0.0) {
             "; a percentage is not available, since a joint takes no torque".to_string()
+        } else {
+            "; a percentage is not available, since a joint takes no torque that can be told from rounding"
+                .to_string()
         }
     )
 }

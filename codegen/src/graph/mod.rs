@@ -13,6 +13,7 @@ mod tests;
 pub use build::{Builder, Expr};
 pub use count::{Operations, TRIG_PAIR};
 pub use node::{Name, Node, NodeId, Variable};
+use serde::{Deserialize, Serialize};
 
 use crate::lagrangian::MAX_JOINTS;
 use crate::trig::Trig;
@@ -22,7 +23,7 @@ use crate::trig::Trig;
 /// Holds: operands come before the nodes that use them; no two nodes are equal; no node is a constant
 /// expression, a sum with 0, a product with 0, 1 or −1, or a double negation; every node is reachable
 /// from an output.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Graph {
     /// The nodes in order of evaluation.
     pub nodes: Vec<Node>,
@@ -31,6 +32,7 @@ pub struct Graph {
     /// The results, in the order the caller gave them.
     pub outputs: Vec<NodeId>,
     /// How sines and cosines are taken; the builder leaves the default.
+    #[serde(skip)]
     pub sines: Trig,
     /// By joint the power of 2 by which its angle is divided before its sine and cosine are taken; mostly 1.
     pub parts: [u8; MAX_JOINTS],

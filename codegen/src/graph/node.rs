@@ -1,10 +1,12 @@
 //! Nodes of the graph.
 
+use serde::{Deserialize, Serialize};
+
 /// Index of a node in its graph.
 pub type NodeId = usize;
 
 /// An input of the passivity torque; joints from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Variable {
     /// Joint position q_j, rad or m.
     Q(usize),
@@ -17,7 +19,7 @@ pub enum Variable {
 }
 
 /// One operation or leaf. Constants are kept by their bits, so that nodes can be compared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Node {
     /// An input.
     Input(Variable),
@@ -69,7 +71,7 @@ impl Node {
 }
 
 /// The name of a node in generated code.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Name {
     /// An identifier.
     pub text: String,

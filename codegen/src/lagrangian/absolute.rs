@@ -3,6 +3,7 @@
 //! With θ̇ = T q̇ and S = T⁻¹ the same torque is τ = Tᵀ τ', where D' = Sᵀ D S, h'_abc = Σ S_ia S_jb S_kc h_ijk and
 //! G' = Sᵀ G. Of two parallel links D' has one entry that moves where D has three.
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 use super::coefficients::{Accuracy, Entry, Layers, distinct};
@@ -12,7 +13,7 @@ use crate::arm::{Arm, JointKind};
 /// Angular velocities of links in place of joint velocities.
 ///
 /// Holds: invertible for any signs, whatever the arm; that axes are parallel makes coefficients short, nothing else.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Coordinates {
     /// By joint i: the σ in θ̇_i = q̇_i + σ θ̇_{i−1}, which is 1 or −1 for axes that point the same or the opposite way,
     /// and 0 where θ̇_i = q̇_i.
@@ -74,7 +75,7 @@ impl Coordinates {
 }
 
 /// A model in absolute angles beside the one in joint angles.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Absolute {
     /// What the angles are.
     pub coordinates: Coordinates,

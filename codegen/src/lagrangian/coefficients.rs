@@ -1,12 +1,13 @@
 //! The set of distinct coefficients, up to sign.
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fmt;
 
 use super::{Combination, Function, Lagrangian};
 
 /// An entry of the model (1); indices from 0, printed from 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Entry {
     /// d_ij with i ≤ j; it stands for d_ji too.
     D(usize, usize),
@@ -27,7 +28,7 @@ impl Entry {
 }
 
 /// A place where a coefficient stands, and the sign it has there.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Place {
     /// The entry.
     pub entry: Entry,
@@ -36,7 +37,7 @@ pub struct Place {
 }
 
 /// One distinct coefficient α_m of the model; with uncertain parameters u it is α_m + Σ_k u_k ∂α_m/∂u_k.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Coefficient {
     /// Its terms.
     pub terms: Combination,
@@ -49,7 +50,7 @@ pub struct Coefficient {
 }
 
 /// How well an expansion is known.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
     /// Terms up to this magnitude cannot be told from rounding.
     pub resolution: f64,

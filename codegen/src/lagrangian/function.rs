@@ -1,5 +1,6 @@
 //! The canonical functions ψ: cos(κ·q) and sin(κ·q), times powers of the prismatic coordinates.
 
+use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -11,7 +12,7 @@ pub const MAX_JOINTS: usize = 8;
 ///
 /// Holds: the first nonzero entry of κ is positive; κ = 0 goes with the cosine; κ_j = 0 for prismatic
 /// joints and power_j = 0 for revolute ones.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Function {
     /// κ, by joint.
     pub kappa: [i8; MAX_JOINTS],

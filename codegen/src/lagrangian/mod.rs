@@ -13,6 +13,7 @@ pub use absolute::{Absolute, Coordinates};
 pub use coefficients::{Accuracy, Coefficient, Entry, Place};
 pub use expand::{expand, expand_family};
 pub use function::{Function, MAX_JOINTS, WHOLE};
+use serde::{Deserialize, Serialize};
 pub use values::Values;
 
 /// A linear combination Σ k_l ψ_l: pairs (index l into [`Lagrangian::functions`], k_l), by ascending l, without zeros.
@@ -23,7 +24,7 @@ pub type Combination = Vec<(usize, f64)>;
 /// Holds: `functions` is sorted and has no duplicates, the constant first; every entry of D, h and G
 /// that is not identically zero is a place of exactly one coefficient; no two coefficients are equal up
 /// to sign; the largest term of each is positive.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lagrangian {
     /// Number of joints n.
     pub dof: usize,

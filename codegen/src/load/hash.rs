@@ -18,8 +18,7 @@ use crate::error::{Diagnostics, Error};
 /// [`Error::Input`] where a named file cannot be read.
 pub fn spec_hash(loaded: &Loaded) -> Result<String, Error> {
     let value = serde_json::to_value(&loaded.spec).map_err(|e| Error::Internal(e.to_string()))?;
-    let mut text = String::new();
-    canonical(&value, &mut text);
+    let text = canonical(&value);
     let mut hasher = Sha256::new();
     hasher.update(text.as_bytes());
     let mut faults = Diagnostics::of(&loaded.path);
@@ -44,8 +43,16 @@ pub fn spec_hash(loaded: &Loaded) -> Result<String, Error> {
     faults.finish(hex)
 }
 
+/// `value` in the one form that does not depend on spacing or on the order of keys.
+///
 /// Keys are sorted here and not left to the map type, whose order is a feature flag of serde_json.
-fn canonical(value: &Value, out: &mut String) {
+pub(crate) fn canonical(value: &Value) -> String {
+    let mut text = String::new();
+    write(value, &mut text);
+    text
+}
+
+fn write(value: &Value, out: &mut String) {
     match value {
         Value::Object(map) => {
             let mut members: Vec<_> = map.iter().collect();
@@ -54,7 +61,7 @@ fn canonical(value: &Value, out: &mut String) {
             for (key, value) in members {
                 out.push_str(&Value::from(key.as_str()).to_string());
                 out.push(':');
-                canonical(value, out);
+                write(value, out);
                 out.push(',');
             }
             out.push('}');
@@ -62,7 +69,7 @@ fn canonical(value: &Value, out: &mut String) {
         Value::Array(list) => {
             out.push('[');
             for value in list {
-                canonical(value, out);
+                write(value, out);
                 out.push(',');
             }
             out.push(']');

@@ -1,4 +1,4 @@
-//! JSON text to a value, with the faults that a plain reader lets pass: repeated keys are refused.
+//! JSON text to a value, with the faults that a plain reader lets pass: repeated and endless keys are refused.
 
 use std::fmt;
 
@@ -8,15 +8,25 @@ use serde_json::{Map, Number, Value};
 use super::wording::{entry, member};
 use crate::error::Diagnostics;
 
-/// The value that `text` stands for; `None` after a syntax fault. Repeated keys are faults too, the last one stands.
+/// Longest key, characters: a name has 200 at most.
+const LONGEST_KEY: usize = 1000;
+
+/// The value that `text` stands for; `None` after a syntax fault. Repeated keys are faults too, the last one stands; what
+/// stands under a key that is too long is left out.
 pub(super) fn read(text: &str, faults: &mut Diagnostics) -> Option<Value> {
     let text = text.trim_start_matches('\u{feff}');
-    let mut repeated = Vec::new();
+    let mut wrong = Vec::new();
     let mut reader = serde_json::Deserializer::from_str(text);
-    let node = Node { path: String::new(), repeated: &mut repeated };
+    let node = Node { path: String::new(), wrong: &mut wrong };
     let result = node.deserialize(&mut reader).and_then(|value| reader.end().map(|()| value));
-    for field in repeated {
-        faults.push(field, "stands twice in the same object", "keep one of the two");
+    for (field, key) in wrong {
+        match key {
+            Key::Repeated => faults.push(field, "stands twice in the same object", "keep one of the two"),
+            Key::Long(length) => {
+                let help = format!("write at most {LONGEST_KEY}, or remove it");
+                faults.push(field, format!("is a key of {length} characters"), help);
+            }
+        }
     }
     match result {
         Ok(value) => Some(value),
@@ -44,7 +54,7 @@ pub(super) fn narrow(value: &mut Value) {
     }
 }
 
-/// Problem and mend of a syntax error.
+/// Problem and help for a syntax error.
 fn syntax(error: &serde_json::Error) -> (String, &'static str) {
     let place = format!(" at line {} column {}", error.line(), error.column());
     let whole = error.to_string();
@@ -54,14 +64,21 @@ fn syntax(error: &serde_json::Error) -> (String, &'static str) {
     } else if error.is_eof() {
         "complete the file: a quote, bracket or brace is not closed"
     } else {
-        "mend the JSON there: double quotes around names, commas between entries, no comments"
+        "correct the JSON there: double quotes around names, commas between entries, no comments"
     };
     (format!("line {}, column {}: {what}", error.line(), error.column()), help)
 }
 
+/// What is wrong with a key.
+enum Key {
+    Repeated,
+    /// Of so many characters.
+    Long(usize),
+}
+
 struct Node<'a> {
     path: String,
-    repeated: &'a mut Vec<String>,
+    wrong: &'a mut Vec<(String, Key)>,
 }
 
 impl<'de> DeserializeSeed<'de> for Node<'_> {
@@ -106,7 +123,7 @@ impl<'de> Visitor<'de> for Node<'_> {
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Value, A::Error> {
         let mut out = Vec::new();
         loop {
-            let seed = Node { path: entry(&self.path, out.len()), repeated: &mut *self.repeated };
+            let seed = Node { path: entry(&self.path, out.len()), wrong: &mut *self.wrong };
             match list.next_element_seed(seed)? {
                 Some(value) => out.push(value),
                 None => return Ok(Value::Array(out)),
@@ -118,10 +135,15 @@ impl<'de> Visitor<'de> for Node<'_> {
         let mut out = Map::new();
         while let Some(key) = object.next_key::<String>()? {
             let path = member(&self.path, &key);
-            if out.contains_key(&key) {
-                self.repeated.push(path.clone());
+            if key.chars().nth(LONGEST_KEY).is_some() {
+                self.wrong.push((path.clone(), Key::Long(key.chars().count())));
+                object.next_value_seed(Node { path, wrong: &mut *self.wrong })?;
+                continue;
             }
-            let value = object.next_value_seed(Node { path, repeated: &mut *self.repeated })?;
+            if out.contains_key(&key) {
+                self.wrong.push((path.clone(), Key::Repeated));
+            }
+            let value = object.next_value_seed(Node { path, wrong: &mut *self.wrong })?;
             out.insert(key, value);
         }
         Ok(Value::Object(out))

@@ -6,6 +6,7 @@ mod hash;
 mod json;
 mod named;
 mod plain;
+mod reader;
 mod repair;
 mod structure;
 mod wording;
@@ -18,9 +19,11 @@ use serde_json::Value;
 use crate::error::{Diagnostics, Error};
 use crate::spec::Spec;
 
+pub(crate) use hash::canonical;
 pub use hash::spec_hash;
 pub use named::Named;
 pub use plain::plain;
+pub(crate) use reader::text as read_text;
 pub use structure::schema;
 
 /// A specification of the right shape and the files that it rests on.
@@ -72,7 +75,7 @@ pub fn draft(path: &Path) -> Result<Draft, Error> {
 }
 
 fn text(path: &Path) -> Result<String, Error> {
-    std::fs::read_to_string(path).map_err(|error| {
+    read_text(path).map_err(|error| {
         Error::input(
             path,
             "",

@@ -1,15 +1,11 @@
 //! The files that a specification names, read once: what is hashed is what is used.
 
-use std::fs::File;
-use std::io::{Error, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::Loaded;
+use super::reader::bytes;
 use crate::spec::{MotionSpec, Spec};
-
-/// Most bytes that are read of one file: a device may have no end.
-const MOST: u64 = 1 << 28;
 
 /// A file that a specification names, with the bytes that it held when the specification was read.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,16 +53,6 @@ pub(super) fn read(spec: &Spec, path: &Path) -> Vec<Named> {
         Named { field, name: name.to_string(), path, content }
     };
     fields(spec).into_iter().map(read).collect()
-}
-
-/// What stands in the file at `path`, if that is not too much.
-fn bytes(path: &Path) -> Result<Vec<u8>, Error> {
-    let mut bytes = Vec::new();
-    File::open(path)?.take(MOST + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > MOST {
-        return Err(Error::other(format!("it has more than {} MiB", MOST >> 20)));
-    }
-    Ok(bytes)
 }
 
 /// The names of files in `spec`, each with its field.

@@ -43,7 +43,7 @@ fn syntax_faults_name_line_and_column() {
     };
     says(
         "{\n  \"name\": \"a\"\n  \"arm\": {}\n}",
-        "line 3, column 3: expected `,` or `}`; mend the JSON there",
+        "line 3, column 3: expected `,` or `}`; correct the JSON there",
     );
     says("{ \"name\": \"a\"", "line 1, column 13: EOF while parsing an object; complete the file");
     says("", "EOF while parsing a value; complete the file");
@@ -53,7 +53,7 @@ fn syntax_faults_name_line_and_column() {
 }
 
 #[test]
-fn structural_faults_name_field_value_and_mend() {
+fn structural_faults_name_field_value_and_help() {
     expect(|v| v["model"] = json!("exactly"), &["model: is \"exactly\"; write "]);
     expect(
         |v| remove(v, "/arm/dh/links/1", "mass"),

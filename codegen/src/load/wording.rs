@@ -120,7 +120,10 @@ pub(super) fn quoted(names: &[String]) -> String {
 
 /// The name in `known` that `word` was probably meant to be.
 pub(super) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let closest = known.into_iter().map(|name| (distance(word, name), name)).min()?;
+    let length = word.chars().count();
+    // What differs by more in length is not near.
+    let known = known.into_iter().filter(|name| name.chars().count().abs_diff(length) <= 3);
+    let closest = known.map(|name| (distance(word, name), name)).min()?;
     let tolerated = (word.chars().count().min(closest.1.chars().count()) / 3).clamp(1, 3);
     (closest.0 <= tolerated).then_some(closest.1)
 }

@@ -1,5 +1,6 @@
 //! Motions from a table `t,q1,…,qn`.
 
+use super::LONGEST;
 use super::Spline;
 use crate::error::Diagnostics;
 use crate::load::Named;
@@ -93,6 +94,9 @@ fn row(record: &csv::StringRecord, dof: usize, before: Option<f64>) -> Result<(f
     match before {
         Some(before) if t <= before => {
             Err((format!("time {t} does not come after {before}"), "write increasing times".to_string()))
+        }
+        _ if t > LONGEST => {
+            Err((format!("time {t:e} is too late"), format!("write times up to {LONGEST:e}, in s")))
         }
         _ => Ok((t, q)),
     }

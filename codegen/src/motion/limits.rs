@@ -3,6 +3,7 @@
 use super::Motion;
 use crate::arm::Arm;
 use crate::error::Diagnostics;
+use crate::number::{decimal, scientific};
 use crate::numerics::Interval;
 
 /// Instants among which the worst is sought.
@@ -46,8 +47,12 @@ pub fn check_limits(motion: &Motion, arm: &Arm, faults: &mut Diagnostics) {
                 faults.push(
                     "motion",
                     format!(
-                        "{what} of joint {number} ({}) {is} {value:.6} at t = {t:.3} s, outside its limits [{low}, {high}]",
-                        joint.name
+                        "{what} of joint {number} ({}) {is} {} at t = {} s, outside its limits [{}, {}]",
+                        joint.name,
+                        decimal(value, 6),
+                        decimal(t, 3),
+                        scientific(low),
+                        scientific(high)
                     ),
                     "keep the motion inside the joint limits, or correct the limits",
                 );

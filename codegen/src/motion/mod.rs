@@ -17,6 +17,9 @@ pub use limits::check_limits;
 pub use span::Span;
 pub use spline::Spline;
 
+/// Longest motion, s: four months.
+pub(crate) const LONGEST: f64 = 1e7;
+
 /// A desired motion of n joints, evaluated by the very functions that run on the device.
 ///
 /// Holds: the duration is positive; every number is finite; all joints are there.

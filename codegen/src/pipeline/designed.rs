@@ -20,22 +20,22 @@ impl Designed {
     /// # Errors
     /// [`Error::Input`] where the gains overflow, no gains do what is asked for, or a required guarantee does not hold.
     pub fn new(certified: Certified, means: Means) -> Result<Self, Error> {
-        let modelled = &certified.modelled;
-        let expanded = &modelled.sampled.expanded;
-        let checked = &expanded.checked;
+        let (checked, proved) = (&certified.checked, &certified.proved);
         let Some(control) = &checked.control else { return Ok(Self { certified, design: None }) };
+        let rounding = certified.error().rounding();
         let design = design(&DesignProblem {
             file: &checked.loaded.path,
             control,
             arm: &checked.built.arm,
             given: (&checked.built.given, &checked.built.uncertain),
-            angles: modelled.sampled.angles.as_ref(),
-            lagrangian: &expanded.lagrangian,
-            bounds: &certified.bounds,
+            angles: certified.angles.as_ref(),
+            lagrangian: &proved.lagrangian,
+            bounds: &proved.bounds,
+            rounding: &rounding,
             domain: &checked.domain,
             motion: checked.motion.as_deref(),
             uncertainty: &checked.built.uncertainty,
-            regression: modelled.regression.as_ref(),
+            regression: proved.regression.as_ref(),
             seek_tube: means.effort.seek_tube,
             progress: means.progress,
         })?;

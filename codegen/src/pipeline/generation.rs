@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use super::Means;
-use super::certified::Certified;
+use super::certified::Proved;
 use super::designed::Designed;
-use super::modelled::Modelled;
 use crate::arm::{Arm, Uncertainty};
 use crate::bounds::{Bounds, Certificate, Effort, Met, Torque};
+use crate::cache::Cache;
 use crate::check::{Checked, Control, Extent, read};
 use crate::control::Design;
 use crate::domain::Domain;
@@ -63,7 +63,17 @@ impl Generation {
     /// # Errors
     /// As [`Generation::from_file`].
     pub fn with_progress(loaded: Loaded, effort: &Effort, progress: &dyn Progress) -> Result<Self, Error> {
-        super::run(loaded, Extent::Whole, Means { effort, progress })
+        super::run(loaded, Extent::Whole, Means { effort, progress, cache: None })
+    }
+
+    /// The same with stages that an earlier run of the same program has kept in `cache`.
+    pub(crate) fn cached(
+        loaded: Loaded,
+        effort: &Effort,
+        progress: &dyn Progress,
+        cache: Option<&Cache>,
+    ) -> Result<Self, Error> {
+        super::run(loaded, Extent::Whole, Means { effort, progress, cache })
     }
 
     /// The model alone: as [`Generation::with_progress`], but gains, guarantee and whether D can be inverted are not
@@ -72,7 +82,7 @@ impl Generation {
     /// # Errors
     /// As [`Generation::from_file`].
     pub fn model_only(loaded: Loaded, effort: &Effort, progress: &dyn Progress) -> Result<Self, Error> {
-        super::run(loaded, Extent::Model, Means { effort, progress })
+        super::run(loaded, Extent::Model, Means { effort, progress, cache: None })
     }
 
     /// The last stage: what the model's error costs in torque at the rates that the law meets.
@@ -80,8 +90,8 @@ impl Generation {
         let _stage = Stage::new(means.progress, "torque error of the law", 1);
         let certified = &designed.certified;
         let rates = designed.design.as_ref().and_then(|design| design.rates.as_ref());
-        let error = certified.modelled.error();
-        let met = rates.map(|rates| error.met(&certified.certificates, &certified.bounds, rates));
+        let (error, proved) = (certified.error(), &certified.proved);
+        let met = rates.map(|rates| error.met(&proved.certificates, &proved.bounds, rates));
         Self { designed, met }
     }
 
@@ -111,15 +121,11 @@ impl Generation {
     }
 
     fn checked(&self) -> &Checked {
-        &self.modelled().sampled.expanded.checked
+        &self.designed.certified.checked
     }
 
-    fn modelled(&self) -> &Modelled {
-        &self.certified().modelled
-    }
-
-    fn certified(&self) -> &Certified {
-        &self.designed.certified
+    fn proved(&self) -> &Proved {
+        &self.designed.certified.proved
     }
 }
 
@@ -157,12 +163,12 @@ impl Generation {
 
     /// The exact model.
     pub fn lagrangian(&self) -> &Lagrangian {
-        &self.modelled().sampled.expanded.lagrangian
+        &self.proved().lagrangian
     }
 
     /// The emitted model with its code.
     pub fn model(&self) -> &Model {
-        &self.modelled().model
+        &self.proved().model
     }
 
     /// The coefficients of the emitted model.
@@ -177,12 +183,12 @@ impl Generation {
 
     /// The cheapest exact passivity torque.
     pub fn exact_code(&self) -> &Graph {
-        &self.modelled().exact
+        &self.proved().exact
     }
 
     /// What the model leaves out over the domain at most, rounded up to the digits that are printed.
     pub fn bounds(&self) -> &Bounds {
-        &self.certified().bounds
+        &self.proved().bounds
     }
 
     /// How the emitted code computes the torque.
@@ -192,12 +198,12 @@ impl Generation {
 
     /// What is odd about the specification without being wrong.
     pub fn warnings(&self) -> &[String] {
-        &self.modelled().warnings
+        &self.proved().warnings
     }
 
     /// A certificate for each coefficient of [`Generation::lagrangian`].
     pub fn certificates(&self) -> &[Certificate] {
-        &self.certified().certificates
+        &self.proved().certificates
     }
 
     /// The desired motion; `None` where there is none.
@@ -212,7 +218,7 @@ impl Generation {
 
     /// What the model's error costs in torque; `None` over a workspace where a joint lacks a limit.
     pub fn torque(&self) -> Option<&Torque> {
-        self.certified().torque.as_ref()
+        self.proved().torque.as_ref()
     }
 
     /// The same at the rates that the law meets; `None` without a controller, or where no level of V holds the errors.
@@ -227,11 +233,11 @@ impl Generation {
 
     /// The parameters of a law that learns; `None` for the other laws.
     pub fn regression(&self) -> Option<&Regression> {
-        self.modelled().regression.as_ref()
+        self.proved().regression.as_ref()
     }
 
     /// The torque as a function of them; `None` for the other laws.
     pub fn regressor(&self) -> Option<&Regressor> {
-        self.modelled().regressor.as_ref()
+        self.proved().regressor.as_ref()
     }
 }

@@ -8,6 +8,7 @@ use crate::check::Checked;
 use crate::domain::{Domain, Measure};
 use crate::dynamics::mass_matrix;
 use crate::error::{Diagnostics, Error};
+use crate::number::decimal;
 use crate::progress::Stage;
 use crate::reduction;
 use crate::spec::RefitSpec;
@@ -98,7 +99,12 @@ fn check_angles(sines: &Trig, position_bound: &[f64], arm: &Arm, faults: &mut Di
     for (joint, most) in turning.filter(|(_, most)| **most > sines.range) {
         faults.push(
             "emit.trig",
-            format!("takes angles up to {:.1} rad, and {} may reach {most:.1} rad", sines.range, joint.name),
+            format!(
+                "takes angles up to {} rad, and {} may reach {} rad",
+                decimal(sines.range, 1),
+                joint.name,
+                decimal(*most, 1)
+            ),
             "write \"libm\", or correct the motion or the limits",
         );
     }

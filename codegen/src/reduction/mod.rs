@@ -25,6 +25,7 @@ pub use reestimate::reestimate;
 pub use regression::{Learnt, Regression};
 pub use samples::Samples;
 pub use separate::{minimax_each, separate};
+use serde::{Deserialize, Serialize};
 pub use shared::shared;
 pub use simplified_arm::{Expressed, SimplifiedArm, expressed};
 pub use sparse::{CandidateFunction, Group, Sparse, products};
@@ -37,7 +38,7 @@ use crate::lagrangian::{Coefficient, Combination, Entry, Lagrangian};
 ///
 /// Holds: `combinations` and `simplified` run parallel to [`Lagrangian::coefficients`]; what is not
 /// simplified is the exact combination.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reduced {
     /// The kept functions u_1 … u_ξ in the order of selection, as indices into [`Lagrangian::functions`];
     /// where every coefficient has its own, the union in ascending order; empty for the exact model.
@@ -53,7 +54,7 @@ pub struct Reduced {
 }
 
 /// How a model is made.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Kind {
     /// Nothing is left out.
     Exact,

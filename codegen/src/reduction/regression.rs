@@ -1,5 +1,6 @@
 //! The parameters θ that an adaptive law learns, and the model as an affine function of them, equation (50).
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 use super::Reduced;
@@ -7,7 +8,7 @@ use crate::lagrangian::{Combination, Lagrangian, MAX_JOINTS};
 use crate::spec::ParametersSpec;
 
 /// One parameter θ_k.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Learnt {
     /// The uncertain number's field, or coefficient and function.
     pub name: String,
@@ -24,7 +25,7 @@ pub struct Learnt {
 /// The simplified model as α̂_m = base_m + Σ_k θ_k effects_k,m.
 ///
 /// Holds: for every value of the uncertain parameters there is a θ in the box that gives the re-estimated model.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Regression {
     /// base_m by coefficient.
     pub base: Vec<Combination>,

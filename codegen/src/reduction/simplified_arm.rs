@@ -1,5 +1,6 @@
 //! The exact model of a simpler arm in place of the arm's own.
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 use super::plus;
@@ -10,7 +11,7 @@ use crate::lagrangian::{Combination, Entry, Lagrangian};
 const SAME: f64 = 16.0;
 
 /// What is left out where the exact model of another arm stands for that of the arm.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SimplifiedArm {
     /// What its recursion may be off by in f64, by coefficient: rounding, and terms that the expansion lacks.
     pub rounding: Vec<f64>,

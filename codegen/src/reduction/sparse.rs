@@ -1,5 +1,6 @@
 //! Models whose coefficients keep few functions each, products among them.
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -10,7 +11,7 @@ use crate::lagrangian::{Absolute, Combination, Function, Lagrangian};
 ///
 /// Holds: `expansion` is the same function as a combination of ψ of the exact model, so that residuals stay
 /// combinations of these.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CandidateFunction {
     /// The factors, as indices into [`Lagrangian::functions`]; the last two are multiplied first.
     pub factors: Vec<usize>,
@@ -32,7 +33,7 @@ impl CandidateFunction {
 }
 
 /// Coefficients that share one simplified form up to sign.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Group {
     /// Indices into [`Lagrangian::coefficients`], each with the sign of the form there.
     pub members: Vec<(usize, f64)>,
@@ -41,7 +42,7 @@ pub struct Group {
 }
 
 /// How a sparse model is written down; coefficients in no group are zero.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sparse {
     /// The functions that occur.
     pub functions: Vec<CandidateFunction>,

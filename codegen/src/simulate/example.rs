@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{Comparison, Scenario, simulate};
 use crate::arm::{Arm, Body, Joint, JointKind, Limits, Transform, Uncertainty};
-use crate::bounds::{Bounds, Effort, certified};
+use crate::bounds::{Bounds, Effort, certified, position_bound, recursion_rounding};
 use crate::check::{Control, GainSource, InitialError, Tuning};
 use crate::control::{Design, DesignProblem, design};
 use crate::domain::{Domain, Measure};
@@ -86,6 +86,7 @@ impl Example {
             compensate_coulomb: false,
             on_fault: OnFaultSpec::Hold,
         };
+        let rounding = recursion_rounding(&arm, &position_bound(&tube));
         let design = design(&DesignProblem {
             file: Path::new("example.json"),
             control: &control,
@@ -94,6 +95,7 @@ impl Example {
             angles: None,
             lagrangian: &lagrangian,
             bounds: &bounds,
+            rounding: &rounding,
             domain: &tube,
             motion: Some(&motion),
             uncertainty: &Uncertainty::default(),

@@ -31,6 +31,7 @@ use crate::control::{Adaptation, Design};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::motion::Motion;
+use crate::number::scientific;
 use crate::pipeline::Generation;
 use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec, SimulationSpec};
 use crate::torque::Regressor;
@@ -248,7 +249,7 @@ fn steps(scenario: &Scenario) -> Result<(u32, u32), Error> {
     if !(duration.is_finite() && duration > 0.0) {
         return refuse(
             "simulation.duration",
-            format!("is {duration} s"),
+            format!("is {} s", scientific(duration)),
             "write a positive number of seconds",
         );
     }
@@ -264,8 +265,10 @@ fn steps(scenario: &Scenario) -> Result<(u32, u32), Error> {
         return refuse(
             "simulation",
             format!(
-                "{duration} s in periods of {} s with {substeps} substeps are {total:e} steps",
-                design.period
+                "{} s in periods of {} s with {substeps} substeps are {} steps",
+                scientific(duration),
+                scientific(design.period),
+                scientific(total)
             ),
             "simulate a shorter time, or take fewer substeps, to stay under 1e8 steps",
         );
@@ -273,7 +276,7 @@ fn steps(scenario: &Scenario) -> Result<(u32, u32), Error> {
     if periods > MOST_PERIODS {
         return refuse(
             "simulation.duration",
-            format!("takes {periods:e} control periods of {} s", design.period),
+            format!("takes {} control periods of {} s", scientific(periods), scientific(design.period)),
             "simulate a shorter time, to stay under 1e6 periods: each of them is recorded",
         );
     }

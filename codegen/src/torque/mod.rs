@@ -19,6 +19,7 @@ pub use plain::plain;
 pub use recursive::recursive;
 pub(crate) use recursive::{Plan, costs, planned};
 pub use regressor::{Regressor, regressor};
+use serde::{Deserialize, Serialize};
 pub use sparse::sparse;
 
 use crate::arm::Arm;
@@ -33,7 +34,7 @@ const LONG: usize = 4000;
 const SHORT: usize = 100;
 
 /// How a body computes the torque.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Form {
     /// Sums of ψ functions.
     Expanded,

@@ -6,9 +6,10 @@ use crate::arm::Arm;
 use crate::graph::{Builder, Expr, Graph};
 use crate::lagrangian::{Combination, Lagrangian};
 use crate::reduction::Regression;
+use serde::{Deserialize, Serialize};
 
 /// Code of base and Y.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Regressor {
     /// Outputs: base by row, unless it is the model's own torque; then Y column by column, each by row.
     pub code: Graph,

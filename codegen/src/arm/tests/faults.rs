@@ -18,7 +18,7 @@ fn expect(edit: impl Fn(&mut Value), parts: &[&str]) {
 }
 
 #[test]
-fn faults_of_tables_name_field_value_and_mend() {
+fn faults_of_tables_name_field_value_and_help() {
     let link = |v: &mut Value, i: usize, name: &str, to: Value| v["arm"]["dh"]["links"][i][name] = to;
     let com = json!([0.0, 0.0, 0.0]);
     expect(

@@ -38,7 +38,7 @@ fn line_of(text: &str) -> usize {
 }
 
 #[test]
-fn faults_name_file_place_value_and_mend() {
+fn faults_name_file_place_value_and_help() {
     let u = usual;
     let swing = r#"<joint name="swing" type="revolute">"#;
     refused("two-tips", &[], json!({ "lock": { "grip": 0.0 } }), "name one of camera, finger, tool");
@@ -177,7 +177,7 @@ fn faults_name_file_place_value_and_mend() {
         "roots",
         &[("<link name=\"tool\"/>", "<link name=\"tool\"/><link name=\"table\"/>")],
         u(),
-        "falls apart: base, table are carried by no joint",
+        "arm.urdf: falls apart: base, table are carried by no joint",
     );
     refused(
         "loop",

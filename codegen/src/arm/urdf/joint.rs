@@ -9,6 +9,7 @@ use super::super::{Body, JointKind, Limits, Transform, validate};
 use super::robot::{Joint, Kind, Link, number, required, triple};
 use super::xml::Element;
 use crate::error::Diagnostics;
+use crate::number::scientific;
 use crate::spec::{ArmSpec, DriveSpec, LimitsSpec};
 
 /// The pose that `<origin>` inside `element` gives, rounded by up to `angle` rad; the identity without one. `place` is the
@@ -110,7 +111,7 @@ pub(super) fn lock(joint: &Joint<'_>, position: f64, file: &Path, warnings: &mut
     let range = [end("lower"), end("upper")];
     if range[0] < range[1] && (position < range[0] || range[1] < position) {
         let lock = Place::new(file, format!("arm.lock.{}", joint.name));
-        lock.warn(warnings, &format!("is {position}, beyond the limits {range:?} of the file"));
+        lock.warn(warnings, &format!("is {}, beyond the limits {range:?} of the file", scientific(position)));
     }
 }
 

@@ -8,6 +8,9 @@ use super::xml::Element;
 use crate::error::Diagnostics;
 use crate::spec::ArmSpec;
 
+/// Most joints in a line in which each follows the next.
+const LONGEST_LINE: usize = 100;
+
 /// How a joint follows one that moves by itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Follow<'a> {
@@ -22,7 +25,7 @@ pub(super) struct Follow<'a> {
 /// The role of `joint`, whose `<mimic>` is `element`: it follows, or stands where a master stands that is held.
 pub(super) fn role<'a>(
     joint: &'a Joint<'a>,
-    element: &Element,
+    element: &'a Element,
     on_chain: bool,
     all: &BTreeMap<&str, &'a Joint<'a>>,
     chain: &BTreeSet<&str>,
@@ -71,19 +74,19 @@ pub(super) fn role<'a>(
 /// The joint at the end of the line of masters, and how `joint` follows it.
 fn followed<'a>(
     joint: &'a Joint<'a>,
-    element: &Element,
+    element: &'a Element,
     all: &BTreeMap<&str, &'a Joint<'a>>,
     spec: &ArmSpec,
     faults: &mut Diagnostics,
 ) -> Option<(&'a Joint<'a>, Follow<'a>)> {
-    let (mut own, mut element) = (joint, element.clone());
+    let (mut own, mut element) = (joint, element);
     let (mut multiplier, mut offset) = (1.0, 0.0);
     // A line of masters that is longer than the robot has joints goes round in a circle.
-    for _ in 0..=all.len() {
+    for _ in 0..=all.len().min(LONGEST_LINE) {
         let place = own.place.at("mimic").on(element.line);
         let mut given = |name: &str, otherwise: f64| match element.attribute(name) {
             None => Some(otherwise),
-            Some(_) => number(&element, name, &place, faults).and_then(|v| place.at(name).finite(v, faults)),
+            Some(_) => number(element, name, &place, faults).and_then(|v| place.at(name).finite(v, faults)),
         };
         let (factor, shift) = (given("multiplier", 1.0), given("offset", 0.0));
         let Some(name) = element.attribute("joint") else {
@@ -100,11 +103,16 @@ fn followed<'a>(
         let next = (!spec.lock.contains_key(master.name))
             .then(|| master.element.one("mimic", &master.place, faults));
         match next.flatten() {
-            Some(next) if master.kind != Kind::Fixed => (own, element) = (master, next.clone()),
+            Some(next) if master.kind != Kind::Fixed => (own, element) = (master, next),
             _ => return Some((master, Follow { master: master.name, multiplier, offset })),
         }
     }
     let place = joint.place.at("mimic");
-    place.fault(faults, "follows itself, by way of other joints", "let one of them move by itself");
+    if all.len() > LONGEST_LINE {
+        let problem = format!("follows itself, or another by way of more than {LONGEST_LINE} joints");
+        place.fault(faults, problem, "let it follow a joint that moves by itself");
+    } else {
+        place.fault(faults, "follows itself, by way of other joints", "let one of them move by itself");
+    }
     None
 }

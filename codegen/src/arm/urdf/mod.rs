@@ -26,9 +26,6 @@ use crate::error::Diagnostics;
 use crate::load::Named;
 use crate::spec::ArmSpec;
 
-/// Largest file that is read, bytes: a robot's has some hundred thousand.
-const MOST_BYTES: usize = 64 << 20;
-
 /// The arm of the URDF file `named` with the additions of `spec`, its rotations rounded by up to `angle` rad.
 pub(super) fn build(
     spec: &ArmSpec,
@@ -47,11 +44,6 @@ pub(super) fn build(
             return None;
         }
     };
-    if bytes.len() > MOST_BYTES {
-        let problem = format!("has {} bytes, and at most {MOST_BYTES} are read", bytes.len());
-        faults.push_in(file, "", problem, "give the URDF file of one arm");
-        return None;
-    }
     let text = match encoding::text(bytes) {
         Ok(text) => text,
         Err(encoding::Unreadable { line, problem, help }) => {

@@ -90,6 +90,8 @@ impl Kind {
     }
 }
 
+/// Most links, and most joints, of a file: a humanoid has about a hundred.
+const MOST: usize = 2000;
 /// Longest name of a link or joint, characters.
 const LONGEST_NAME: usize = 200;
 
@@ -112,6 +114,16 @@ impl<'a> Robot<'a> {
         if let Some(line) = root.children.iter().find_map(macros) {
             let help = "expand it first: `xacro arm.xacro > arm.urdf`, and name the result";
             whole.on(line).fault(faults, "holds xacro macros, which are not URDF", help);
+            return None;
+        }
+        for kind in ["link", "joint"] {
+            let count = root.all(kind).count();
+            if let Some(first) = root.all(kind).nth(MOST) {
+                let problem = format!("has {count} elements <{kind}>, and at most {MOST} are read");
+                whole.on(first.line).fault(faults, problem, "give the URDF file of one arm");
+            }
+        }
+        if faults.count() > before {
             return None;
         }
         let links: Vec<Link<'_>> = root
@@ -160,6 +172,11 @@ fn named<'a>(
     let file = whole.file();
     let field = format!("{kind}[{}].name", name.value);
     if !plain(&name.value, file, Some(name.line), &field, faults) {
+        return None;
+    }
+    if name.value.trim().is_empty() {
+        let place = whole.at(kind).at("name").on(name.line);
+        place.fault(faults, format!("is {:?}", name.value), format!("give the {kind} a name"));
         return None;
     }
     let length = name.value.chars().count();

@@ -3,7 +3,7 @@
 //! URDF itself knows `mechanicalReduction` alone; the rotor's inertia stands beside it under names that differ from
 //! exporter to exporter. What is not certain is left out with a warning: the specification can say it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use super::super::place::Place;
@@ -24,6 +24,7 @@ pub(super) fn armatures<'a>(
     file: &Path,
     warnings: &mut Vec<String>,
 ) -> BTreeMap<&'a str, (f64, String)> {
+    let known: BTreeSet<&str> = robot.joints.iter().map(|joint| joint.name).collect();
     let mut found: BTreeMap<&str, Vec<Told<'_>>> = BTreeMap::new();
     for element in root.all("transmission") {
         let mut joints: Vec<&str> = element.all("joint").filter_map(name).collect();
@@ -32,7 +33,7 @@ pub(super) fn armatures<'a>(
         );
         joints.dedup();
         let inertia = reflected(element, joints.len());
-        for joint in joints.iter().filter(|joint| robot.joints.iter().any(|known| known.name == **joint)) {
+        for joint in joints.iter().filter(|joint| known.contains(*joint)) {
             if let Some(inertia) = inertia.clone() {
                 found.entry(joint).or_default().push((element, inertia));
             }

@@ -7,7 +7,9 @@ use super::super::place::Place;
 use super::mimic::{self, Follow};
 use super::robot::{Joint, Kind, Robot};
 use crate::error::Diagnostics;
+use crate::number::scientific;
 use crate::spec::ArmSpec;
+use crate::text::listed;
 
 /// What a joint does in the arm.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +53,11 @@ pub(super) fn tree<'a>(
     let reached: BTreeSet<&str> = ordered.iter().map(|j| j.child).chain(std::iter::once(root)).collect();
     let cut_off: Vec<&str> = links.difference(&reached).copied().collect();
     if !cut_off.is_empty() {
-        let problem = format!("has a loop: {} cannot be reached from the root {root}", cut_off.join(", "));
+        let problem = format!("has a loop: {} cannot be reached from the root {root}", listed(&cut_off));
+        let whole = at_first(
+            robot.joints.iter().find(|joint| cut_off.contains(&joint.child)).map(|j| &j.place),
+            &whole,
+        );
         whole.fault(faults, problem, "make the joints a tree");
         return None;
     }
@@ -59,6 +65,11 @@ pub(super) fn tree<'a>(
     let chain = chain(tip, &carrier);
     let joints = roles(&ordered, &chain, spec, file, faults);
     (faults.count() == before).then_some(Tree { root, tip, joints })
+}
+
+/// The whole file, in the line of `first` where that is known.
+fn at_first(first: Option<&Place>, whole: &Place) -> Place {
+    first.and_then(Place::line).map_or_else(|| whole.clone(), |line| whole.on(line))
 }
 
 /// The joint that carries each link.
@@ -94,11 +105,14 @@ fn root<'a>(
     match roots.as_slice() {
         [root] => Some(root),
         [] => {
+            let whole = at_first(robot.joints.first().map(|joint| &joint.place), whole);
             whole.fault(faults, "has a loop: every link is carried by a joint", "make the joints a tree");
             None
         }
         several => {
-            let problem = format!("falls apart: {} are carried by no joint", several.join(", "));
+            let problem = format!("falls apart: {} are carried by no joint", listed(several));
+            let second = robot.links.iter().find(|link| several.get(1) == Some(&link.name));
+            let whole = at_first(second.map(|link| &link.place), whole);
             whole.fault(faults, problem, "join the parts, or remove all but the arm");
             None
         }
@@ -142,7 +156,7 @@ fn tip<'a>(
         [leaf] => Some(leaf),
         several => {
             let problem = format!("is missing, and {} ends in {} links", file.display(), several.len());
-            faults.push("arm.tip", problem, format!("name one of {}", several.join(", ")));
+            faults.push("arm.tip", problem, format!("name one of {}", listed(several)));
             None
         }
     }
@@ -167,7 +181,8 @@ fn roles<'a>(
     faults: &mut Diagnostics,
 ) -> Vec<(&'a Joint<'a>, Role<'a>)> {
     let movable: Vec<&str> = ordered.iter().filter(|j| j.kind != Kind::Fixed).map(|j| j.name).collect();
-    for name in spec.lock.keys().filter(|name| !movable.contains(&name.as_str())) {
+    let known: BTreeSet<&str> = movable.iter().copied().collect();
+    for name in spec.lock.keys().filter(|name| !known.contains(name.as_str())) {
         let help = format!("name one of the movable joints {}", list(movable.iter().copied()));
         faults.push(
             format!("arm.lock.{name}"),
@@ -194,7 +209,8 @@ fn roles<'a>(
         .filter(|(_, role)| matches!(role, Role::Moves | Role::Follows(_)))
         .map(|(j, _)| j.name)
         .collect();
-    for name in spec.joints.keys().filter(|name| !moving.contains(&name.as_str())) {
+    let known: BTreeSet<&str> = moving.iter().copied().collect();
+    for name in spec.joints.keys().filter(|name| !known.contains(name.as_str())) {
         let help = format!("name one of {}", list(moving.iter().copied()));
         faults.push(format!("arm.joints.{name}"), "is not a joint of the arm", help);
     }
@@ -215,7 +231,7 @@ fn role<'a>(
         (Kind::Fixed, ..) => Some(Role::Welded(0.0)),
         (_, None, Some(0.0)) => Some(Role::Welded(0.0)),
         (_, None, Some(position)) => {
-            let problem = format!("is {position}, and the joint is {}", joint.kind.name());
+            let problem = format!("is {}, and the joint is {}", scientific(position), joint.kind.name());
             let help = "write 0: such a joint is held where the file places it";
             faults.push(format!("arm.lock.{}", joint.name), problem, help);
             None
@@ -247,5 +263,5 @@ fn role<'a>(
 
 fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
     let names: Vec<&str> = names.collect();
-    if names.is_empty() { "(there is none)".into() } else { names.join(", ") }
+    if names.is_empty() { "(there is none)".into() } else { listed(&names) }
 }

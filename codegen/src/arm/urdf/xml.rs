@@ -16,6 +16,8 @@ use crate::error::Diagnostics;
 const MOST_DEPTH: usize = 100;
 /// Most elements of a file; a robot of 100 links has about 3000.
 const MOST_ELEMENTS: usize = 1_000_000;
+/// Most attributes of one element; robot files have up to ten.
+const MOST_ATTRIBUTES: usize = 1000;
 
 /// One element.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -128,8 +130,8 @@ impl<'a> Parser<'a> {
                         self.close(element, at)?;
                     }
                 }
-                Event::Text(text) => self.characters(&String::from_utf8_lossy(&text)),
-                Event::CData(text) => self.characters(&String::from_utf8_lossy(&text)),
+                Event::Text(text) => self.characters(&String::from_utf8_lossy(&text), at)?,
+                Event::CData(text) => self.characters(&String::from_utf8_lossy(&text), at)?,
                 Event::Eof => break,
                 Event::GeneralRef(_)
                 | Event::Comment(_)
@@ -159,6 +161,10 @@ impl<'a> Parser<'a> {
         }
         let mut attributes = Vec::new();
         for attribute in tag.attributes() {
+            if attributes.len() == MOST_ATTRIBUTES {
+                let problem = format!("has an element with more than {MOST_ATTRIBUTES} attributes");
+                return Err(Wrong { line: Some(line), problem, help: "give the URDF file of one arm" });
+            }
             let attribute = attribute.map_err(|error| self.malformed(at, &error.to_string()))?;
             let raw = String::from_utf8_lossy(&attribute.value).into_owned();
             // An entity that the file itself declares stays as it is written: only a name or number that is used matters.
@@ -185,10 +191,20 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    fn characters(&mut self, text: &str) {
+    fn characters(&mut self, text: &str, at: usize) -> Result<(), Wrong> {
+        let trimmed = text.trim();
         if let Some(element) = self.open.last_mut() {
-            element.text.push_str(text.trim());
+            element.text.push_str(trimmed);
+        } else if let Some(root) = self.root.as_ref().filter(|_| !trimmed.is_empty()) {
+            let problem = format!("has text behind </{}>", root.name);
+            let at = at + text.len() - text.trim_start().len();
+            return Err(Wrong {
+                line: Some(self.line(at)),
+                problem,
+                help: "remove it: the file ends with that tag",
+            });
         }
+        Ok(())
     }
 
     /// Where a part of the text begins in it.
@@ -209,7 +225,7 @@ impl<'a> Parser<'a> {
         Wrong {
             line: Some(self.line(at)),
             problem: format!("is not a URDF file that can be read ({what})"),
-            help: "mend the XML there",
+            help: "correct the XML there",
         }
     }
 }

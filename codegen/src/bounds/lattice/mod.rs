@@ -22,8 +22,8 @@ use crate::bounds::sum::{Part, Range, Stop, Sum};
 /// Points of the first grid at most, and intervals of each of its sides.
 const POINTS: usize = 8_000;
 const INTERVALS: usize = 64;
-/// What parts that hardly count may add together, of the sum of all; joints on which only they depend drop out.
-const DUST: f64 = 1e-3;
+/// What negligible parts may add together, of the sum of all; joints on which only they depend drop out.
+const NEGLIGIBLE: f64 = 1e-3;
 /// Covers the rounding of a few sums and products of positive numbers.
 const MORE: f64 = 1.0 + 1e-9;
 
@@ -33,20 +33,19 @@ pub(super) fn range(parts: &[Part], limits: &[[f64; 2]], stop: &Stop) -> Range {
     let ceiling: f64 = caps.iter().sum();
     let mut order: Vec<usize> = (0..parts.len()).collect();
     order.sort_by(|&a, &b| caps[a].total_cmp(&caps[b]).then(a.cmp(&b)));
-    let mut dust = 0.0;
-    let mut simplified_arm = BTreeSet::new();
+    let mut negligible = 0.0;
+    let mut dropped = BTreeSet::new();
     for part in order {
-        if dust + caps[part] > DUST * ceiling {
+        if negligible + caps[part] > NEGLIGIBLE * ceiling {
             break;
         }
-        dust += caps[part];
-        simplified_arm.insert(part);
+        negligible += caps[part];
+        dropped.insert(part);
     }
-    let seen =
-        parts.iter().enumerate().filter(|(part, _)| !simplified_arm.contains(part)).map(|(_, part)| part);
+    let seen = parts.iter().enumerate().filter(|(part, _)| !dropped.contains(part)).map(|(_, part)| part);
     let search = Search::new(Sum::new(seen), limits);
-    let range = search.run(&Stop { limit: stop.limit.map(|limit| limit - dust), ..*stop });
-    Range { found: range.found, upper: ((range.upper + dust) * MORE).min(ceiling) }
+    let range = search.run(&Stop { limit: stop.limit.map(|limit| limit - negligible), ..*stop });
+    Range { found: range.found, upper: ((range.upper + negligible) * MORE).min(ceiling) }
 }
 
 /// A cell that may hold more than is near enough.

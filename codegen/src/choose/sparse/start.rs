@@ -15,10 +15,10 @@ pub(super) fn forms(lagrangian: &Lagrangian, table: &Table, m: usize) -> Form {
     let weight = table.weights[m];
     let mut terms = lagrangian.coefficients[m].terms.clone();
     terms.sort_by(|a, b| a.1.abs().total_cmp(&b.1.abs()).then(a.0.cmp(&b.0)));
-    let mut simplified_arm = 0.0;
+    let mut dropped = 0.0;
     let small = terms.iter().take_while(|term| {
-        simplified_arm += term.1.abs() * weight;
-        simplified_arm <= TRUNCATED * STRICTEST
+        dropped += term.1.abs() * weight;
+        dropped <= TRUNCATED * STRICTEST
     });
     let from = small.count();
     let mut kept: Vec<usize> = terms[from..].iter().map(|term| term.0).collect();

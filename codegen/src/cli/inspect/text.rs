@@ -93,9 +93,13 @@ fn guarantee(promised: &GuaranteeView) -> Vec<String> {
     let kind = if promised.inertia_certified { "certified" } else { "sampled" };
     let mut lines = vec![
         format!(
-            "final error: ({}){}",
+            "final error: ({}), {}",
             list(promised.final_error),
-            if promised.guaranteed { "" } else { ", which means nothing without the guarantee" }
+            if promised.guaranteed {
+                "once the initial errors have died away"
+            } else {
+                "but nothing is guaranteed"
+            }
         ),
         format!(
             "largest initial error: ({})",

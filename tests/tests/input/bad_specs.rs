@@ -1,0 +1,14 @@
+//! One input for each class of mistake: one line that names file, field and mend, exit code 2, no file touched.
+
+mod arm;
+mod case;
+mod control;
+mod design;
+mod files;
+mod input;
+mod model;
+mod motion;
+mod several;
+mod shape;
+mod uncertainty;
+mod urdf;
