@@ -109,11 +109,6 @@ impl<T> Parallel<T> {
         self
     }
 
-    /// All items joined in their order by `f`.
-    pub fn reduce(self, identity: impl Fn() -> T, f: impl Fn(T, T) -> T) -> T {
-        self.0.into_iter().fold(identity(), f)
-    }
-
     /// The items as a collection.
     pub fn collect<C: FromIterator<T>>(self) -> C {
         self.0.into_iter().collect()

@@ -125,12 +125,13 @@ pub(super) fn each_cell(sizes: &[usize], mut visit: impl FnMut(&[usize], &dyn Fn
     for slot in 1..k {
         strides[slot] = strides[slot - 1] * sizes[slot - 1];
     }
+    let offset =
+        |corner: usize| (0..k).filter(|slot| corner >> slot & 1 == 1).map(|slot| strides[slot]).sum();
+    let offsets: Vec<usize> = (0..1 << k).map(offset).collect();
     let mut at = vec![0; k];
     for _ in 0..cells.iter().product() {
         let base: usize = at.iter().zip(&strides).map(|(i, s)| i * s).sum();
-        visit(&at, &|corner| {
-            base + (0..k).filter(|slot| corner >> slot & 1 == 1).map(|slot| strides[slot]).sum::<usize>()
-        });
+        visit(&at, &|corner| base + offsets[corner]);
         for slot in 0..k {
             at[slot] += 1;
             if at[slot] < cells[slot] {

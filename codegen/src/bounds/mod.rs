@@ -7,6 +7,7 @@
 
 mod ascent;
 mod branch;
+mod composite;
 mod envelope;
 mod estimate;
 mod expansion;

@@ -186,18 +186,18 @@ fn fill_factors(factors: &mut Vec<[Complex; 3]>, q: f64, largest: i8, angle: Opt
     factors.clear();
     let top = usize::from(largest.unsigned_abs());
     factors.resize(2 * top + 1, [[0.0; 2]; 3]);
-    let mut power = [1.0, 0.0];
     let (sin, cos) = angle.map_or((0.0, q), |unit| libm::sincos(q * unit));
-    let mut powers = vec![power];
-    for _ in 0..top {
-        power = times(power, [cos, sin]);
-        powers.push(power);
-    }
-    for (e, &f) in powers.iter().enumerate() {
+    let mut f = [1.0, 0.0];
+    // Of the two powers before.
+    let mut lower = [0.0; 2];
+    for e in 0..=top {
+        if e > 0 {
+            lower = [f[0], lower[0]];
+            f = times(f, [cos, sin]);
+        }
         let k = e as f64 * angle.unwrap_or(1.0);
         if angle.is_none() {
-            let lower = |by: usize| if e >= by { powers[e - by][0] } else { 0.0 };
-            factors[top + e] = [f, [k * lower(1), 0.0], [k * (k - 1.0) * lower(2), 0.0]];
+            factors[top + e] = [f, [k * lower[0], 0.0], [k * (k - 1.0) * lower[1], 0.0]];
         } else {
             factors[top + e] = [f, [-k * f[1], k * f[0]], [-k * k * f[0], -k * k * f[1]]];
             // e^{−ikq} and its derivatives are the conjugates.
@@ -227,6 +227,9 @@ fn climb(
     let groups = level.starts.len() - 1;
     above.clear();
     above.resize(groups * outer, [0.0; 2]);
+    if deeper == 0 {
+        return climb_from_terms(level, factors, below, above);
+    }
     for (group, out) in above.chunks_exact_mut(outer).enumerate() {
         let range = level.starts[group]..level.starts[group + 1];
         let children = below[range.start * inner..range.end * inner].chunks_exact(inner);
@@ -240,6 +243,20 @@ fn climb(
             add(&mut row[..1], f2, &child[..1]);
             add(&mut row[1..], f1, &child[1..=deeper]);
             add(triangle, f, &child[1 + deeper..]);
+        }
+    }
+}
+
+/// The same of the terms themselves, which are the most: [f, gradient, Hessian] over one joint.
+fn climb_from_terms(level: &Level, factors: &[[Complex; 3]], below: &[Complex], above: &mut [Complex]) {
+    for (out, bounds) in above.as_chunks_mut::<3>().0.iter_mut().zip(level.starts.windows(2)) {
+        let range = bounds[0]..bounds[1];
+        for (&c, &factor) in below[range.clone()].iter().zip(&level.factor[range]) {
+            for (out, &f) in out.iter_mut().zip(&factors[factor]) {
+                let product = times(f, c);
+                out[0] += product[0];
+                out[1] += product[1];
+            }
         }
     }
 }

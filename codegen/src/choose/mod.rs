@@ -18,7 +18,7 @@ use crate::model::Model;
 use crate::progress::{Progress, Stage};
 use crate::reduction::{self, extremes};
 use crate::torque::{self, Form};
-use points::{points, seen};
+use points::{points, seen_within};
 use proofs::Proofs;
 use sparse::SparseProblem;
 
@@ -112,9 +112,9 @@ pub fn cheapest(request: &ToleranceRequest, fraction: f64) -> Model {
         let stage = Stage::new(request.progress, "models within the tolerance", choices.len());
         choices.into_iter().find(|choice| {
             let _part = stage.part();
-            let seen = || seen(request.lagrangian, &choice.reduced, &shares, &everywhere);
+            let seen = || seen_within(request.lagrangian, &choice.reduced, &shares, &everywhere, fraction);
             choice.reduced.is_finite()
-                && (request.is_long() || seen() <= fraction)
+                && (request.is_long() || seen())
                 && proofs.within(request, &choice.reduced, &limits)
         })
     };

@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 use std::ops::{Add, Mul, Neg, Sub};
 
-use super::Graph;
 use super::node::{Name, Node, NodeId, Variable};
+use super::{Graph, Operations};
 use crate::dynamics::Scalar;
 use crate::lagrangian::{MAX_JOINTS, WHOLE};
 use crate::trig::Trig;
@@ -24,6 +24,8 @@ struct State {
     parts: Option<[u8; MAX_JOINTS]>,
     // Only looked up, never iterated: its order cannot reach the output.
     known: HashMap<Node, NodeId, BuildHasherDefault<Mixer>>,
+    /// For counting.
+    seen: Vec<bool>,
 }
 
 /// Multiply and rotate: nodes are small, many, and no adversary chooses them.
@@ -49,6 +51,13 @@ impl Hasher for Mixer {
 
     fn write_isize(&mut self, x: isize) {
         self.write_u64(x as u64);
+    }
+}
+
+/// Handles of one graph are equal where they stand for the same node.
+impl PartialEq for Expr<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.id == other.id
     }
 }
 
@@ -115,6 +124,41 @@ impl Builder {
         }
         graph.outputs = outputs.iter().map(|&output| new[output]).collect();
         graph
+    }
+
+    /// Number of nodes.
+    pub(crate) fn len(&self) -> usize {
+        self.state.borrow().nodes.len()
+    }
+
+    /// Forgets all but the first `len` nodes; whoever has a handle on another must not use it again.
+    pub(crate) fn truncate(&self, len: usize) {
+        let State { nodes, names, known, .. } = &mut *self.state.borrow_mut();
+        nodes.drain(len.min(nodes.len())..).for_each(|node| {
+            known.remove(&node);
+        });
+        names.truncate(len);
+    }
+
+    /// What [`Graph::operations`] of the finished graph of `outputs` would be; `None` where it would not be finite.
+    pub(crate) fn operations(&self, outputs: impl Iterator<Item = NodeId>) -> Option<Operations> {
+        let State { nodes, seen, parts, .. } = &mut *self.state.borrow_mut();
+        seen.clear();
+        seen.resize(nodes.len(), false);
+        let mut needed: Vec<NodeId> = Vec::with_capacity(nodes.len());
+        let mut need = |id: NodeId, needed: &mut Vec<NodeId>| {
+            if !std::mem::replace(&mut seen[id], true) {
+                needed.push(id);
+            }
+        };
+        outputs.for_each(|id| need(id, &mut needed));
+        let mut next = 0;
+        while let Some(&id) = needed.get(next) {
+            nodes[id].operands().for_each(|operand| need(operand, &mut needed));
+            next += 1;
+        }
+        let all = || needed.iter().map(|&id| &nodes[id]);
+        all().all(Node::is_finite).then(|| Operations::of(all(), &parts.unwrap_or(WHOLE)))
     }
 
     fn intern(&self, node: Node) -> Expr<'_> {

@@ -1,10 +1,9 @@
 //! What a graph costs.
 
-use std::collections::BTreeSet;
-
 use serde::Serialize;
 
 use super::{Graph, Node};
+use crate::lagrangian::MAX_JOINTS;
 
 /// What one sine and cosine count for, in multiplications and additions.
 pub const TRIG_PAIR: usize = 12;
@@ -32,33 +31,34 @@ impl Operations {
     }
 }
 
-impl Graph {
-    /// Counts the operations of one evaluation.
-    pub fn operations(&self) -> Operations {
-        let mut count = Operations::default();
-        let mut turned = BTreeSet::new();
-        for node in &self.nodes {
+impl Operations {
+    /// Those of `nodes`, where sines and cosines are of angles divided by `parts`.
+    pub(super) fn of<'a>(nodes: impl Iterator<Item = &'a Node>, parts: &[u8; MAX_JOINTS]) -> Self {
+        let mut count = Self::default();
+        let mut turned: Vec<usize> = Vec::with_capacity(MAX_JOINTS);
+        for node in nodes {
             match *node {
                 Node::Mul(..) => count.mul += 1,
                 Node::Add(..) | Node::Sub(..) | Node::Neg(_) => count.add += 1,
-                Node::Sin(joint) | Node::Cos(joint) => {
-                    turned.insert(joint);
-                }
-                Node::Input(_) | Node::Constant(_) => {}
+                Node::Sin(joint) | Node::Cos(joint) if !turned.contains(&joint) => turned.push(joint),
+                Node::Sin(_) | Node::Cos(_) | Node::Input(_) | Node::Constant(_) => {}
             }
         }
-        count.mul +=
-            turned.iter().filter(|&&joint| self.parts.get(joint).is_some_and(|&part| part != 1)).count();
+        count.mul += turned.iter().filter(|&&joint| parts.get(joint).is_some_and(|&part| part != 1)).count();
         count.trig_pairs = turned.len();
         count
+    }
+}
+
+impl Graph {
+    /// Counts the operations of one evaluation.
+    pub fn operations(&self) -> Operations {
+        Operations::of(self.nodes.iter(), &self.parts)
     }
 
     /// True where every constant is a finite number.
     pub fn is_finite(&self) -> bool {
-        self.nodes.iter().all(|node| match *node {
-            Node::Constant(bits) => f64::from_bits(bits).is_finite(),
-            _ => true,
-        })
+        self.nodes.iter().all(Node::is_finite)
     }
 
     /// How often each node is used, by other nodes or as an output.

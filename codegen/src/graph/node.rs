@@ -50,6 +50,14 @@ impl Node {
         first.into_iter().chain(second)
     }
 
+    /// False for a constant that is no finite number.
+    pub(super) fn is_finite(&self) -> bool {
+        match *self {
+            Node::Constant(bits) => f64::from_bits(bits).is_finite(),
+            _ => true,
+        }
+    }
+
     /// The same node over renumbered operands.
     pub(super) fn renumbered(self, new: impl Fn(NodeId) -> NodeId) -> Self {
         match self {

@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 use super::coefficients::{Accuracy, Entry, Layers, distinct};
-use super::expand::Expansion;
 use super::{Combination, Lagrangian};
 use crate::arm::{Arm, JointKind};
 
@@ -118,12 +117,11 @@ impl Absolute {
             .into_iter()
             .map(|(entry, sum)| {
                 let accuracy = accuracy(entry);
-                let kept = sum.into_iter().filter(|(_, k)| k.abs() > accuracy.resolution);
-                let layer: Expansion = kept.map(|(l, k)| (known.functions[l], k)).collect();
+                let layer = sum.into_iter().filter(|(_, k)| k.abs() > accuracy.resolution).collect();
                 Layers { entry, layers: vec![layer], errors: vec![accuracy] }
             })
             .collect();
-        let lagrangian = distinct(n, layers).over(&known.functions);
+        let lagrangian = distinct(n, &known.functions, layers).over(&known.functions);
         let own = table(&lagrangian);
         let mut parts: Vec<Option<Vec<(usize, f64)>>> = vec![None; known.coefficients.len()];
         for entry in Entry::all(n) {

@@ -1,10 +1,9 @@
 //! The set of distinct coefficients, up to sign.
 
 use serde::{Deserialize, Serialize};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fmt;
 
-use super::expand::Expansion;
 use super::{Combination, Function, Lagrangian};
 
 /// An entry of the model (1); indices from 0, printed from 1.
@@ -113,18 +112,18 @@ impl fmt::Display for Entry {
 pub(super) struct Layers {
     pub entry: Entry,
     /// At the arm's own parameters first, then by each parameter.
-    pub layers: Vec<Expansion>,
+    pub layers: Vec<Combination>,
     /// By layer.
     pub errors: Vec<Accuracy>,
 }
 
-/// Gathers the entries into distinct coefficients and numbers the functions that remain. What twins differ by is added to
-/// the error of the one that is kept.
-pub(super) fn distinct(dof: usize, entries: Vec<Layers>) -> Lagrangian {
+/// Gathers the entries, over `functions`, into distinct coefficients and numbers the functions that remain anew. What twins
+/// differ by is added to the error of the one that is kept.
+pub(super) fn distinct(dof: usize, functions: &[Function], entries: Vec<Layers>) -> Lagrangian {
     let mut kept: Vec<(Layers, Vec<Place>)> = Vec::new();
     let mut vanishing = Vec::new();
     for entry in entries {
-        if entry.layers.iter().all(Expansion::is_empty) {
+        if entry.layers.iter().all(Combination::is_empty) {
             vanishing.push((entry.entry, entry.errors));
             continue;
         }
@@ -148,11 +147,17 @@ pub(super) fn distinct(dof: usize, entries: Vec<Layers>) -> Lagrangian {
         }
     }
     kept.iter_mut().for_each(|(entry, places)| orient(&mut entry.layers, places));
-    let functions: BTreeSet<Function> =
-        kept.iter().flat_map(|(entry, _)| entry.layers.iter().flat_map(|e| e.keys().copied())).collect();
-    let index: BTreeMap<Function, usize> = functions.iter().enumerate().map(|(l, &f)| (f, l)).collect();
-    let combination = |expansion: Expansion| -> Combination {
-        expansion.into_iter().filter_map(|(f, k)| Some((*index.get(&f)?, k))).collect()
+    let mut occurs = vec![false; functions.len()];
+    kept.iter().flat_map(|(entry, _)| entry.layers.iter().flatten()).for_each(|&(l, _)| occurs[l] = true);
+    let mut index = vec![0; functions.len()];
+    let mut left: Vec<Function> = Vec::new();
+    for (l, psi) in functions.iter().enumerate().filter(|&(l, _)| occurs[l]) {
+        index[l] = left.len();
+        left.push(*psi);
+    }
+    let combination = |mut terms: Combination| -> Combination {
+        terms.iter_mut().for_each(|term| term.0 = index[term.0]);
+        terms
     };
     let coefficients = kept
         .into_iter()
@@ -162,40 +167,56 @@ pub(super) fn distinct(dof: usize, entries: Vec<Layers>) -> Lagrangian {
             Coefficient { terms, variations: layers.collect(), places, errors }
         })
         .collect();
-    let functions = functions.into_iter().collect();
-    Lagrangian { dof, functions, coefficients, ranges: Vec::new(), vanishing }
+    Lagrangian { dof, functions: left, coefficients, ranges: Vec::new(), vanishing }
 }
 
 /// Turns the coefficient so that its largest term, the first of equal ones, is positive: then sums rarely begin with
 /// a sign, and names do not depend on what a reduction does to the smaller terms.
-fn orient(layers: &mut [Expansion], places: &mut [Place]) {
+fn orient(layers: &mut [Combination], places: &mut [Place]) {
     let Some(first) = layers.iter().find(|layer| !layer.is_empty()) else { return };
-    let largest =
-        first.values().fold(0.0, |best: f64, &k| if k.abs() > best.abs() * (1.0 + 1e-9) { k } else { best });
+    let largest = first
+        .iter()
+        .fold(0.0, |best: f64, &(_, k)| if k.abs() > best.abs() * (1.0 + 1e-9) { k } else { best });
     if largest < 0.0 {
-        layers.iter_mut().flat_map(|layer| layer.values_mut()).for_each(|k| *k = -*k);
+        layers.iter_mut().flatten().for_each(|(_, k)| *k = -*k);
         places.iter_mut().for_each(|place| place.sign = -place.sign);
     }
 }
 
 /// Σ|a − sign b| over all terms.
-fn difference(a: &Expansion, b: &Expansion, sign: f64) -> f64 {
-    let of = |e: &Expansion, f: &Function| e.get(f).copied().unwrap_or(0.0);
-    let functions: BTreeSet<&Function> = a.keys().chain(b.keys()).collect();
-    functions.into_iter().map(|f| (of(a, f) - sign * of(b, f)).abs()).sum()
+fn difference(a: &Combination, b: &Combination, sign: f64) -> f64 {
+    let mut sum = 0.0;
+    joined(a, b, |a, b| {
+        sum += (a - sign * b).abs();
+        true
+    });
+    sum
 }
 
 /// +1 or −1 where every layer of `b` is ± that of `a` to rounding, with the same sign.
 fn same_up_to_sign(a: &Layers, b: &Layers) -> Option<f64> {
-    let first = |entry: &Layers| entry.layers.iter().find_map(|layer| layer.values().next().copied());
+    let first = |entry: &Layers| entry.layers.iter().find_map(|layer| Some(layer.first()?.1));
     let sign = if (first(a)? < 0.0) == (first(b)? < 0.0) { 1.0 } else { -1.0 };
     let near = |layer: usize| {
         let tolerance = a.errors[layer].resolution + b.errors[layer].resolution;
-        let (a, b) = (&a.layers[layer], &b.layers[layer]);
-        let within = |x: &Expansion, y: &Expansion| {
-            x.iter().all(|(f, k)| (k - sign * y.get(f).copied().unwrap_or(0.0)).abs() <= tolerance)
-        };
-        within(a, b) && within(b, a)
+        joined(&a.layers[layer], &b.layers[layer], |a, b| (a - sign * b).abs() <= tolerance)
     };
     (0..a.layers.len()).all(near).then_some(sign)
+}
+
+/// Whether `holds` of what multiplies each function in `a` and in `b`, by ascending function up to the first where it does not.
+fn joined(a: &Combination, b: &Combination, mut holds: impl FnMut(f64, f64) -> bool) -> bool {
+    let mut rest = b.iter().peekable();
+    for &(l, k) in a {
+        while let Some(&(_, other)) = rest.next_if(|term| term.0 < l) {
+            if !holds(0.0, other) {
+                return false;
+            }
+        }
+        let other = rest.next_if(|term| term.0 == l).map_or(0.0, |term| term.1);
+        if !holds(k, other) {
+            return false;
+        }
+    }
+    rest.all(|&(_, other)| holds(0.0, other))
 }

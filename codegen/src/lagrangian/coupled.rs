@@ -4,18 +4,46 @@
 //! parts that the functions count, so that sines of the chain's angles are sines of the coordinates' turned by a
 //! constant angle. Powers of prismatic joints are multiplied out. Both are exact but for rounding.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::expand::Expansion;
+use super::Combination;
 use super::function::{Function, MAX_JOINTS};
+use super::table::Table;
 use crate::arm::{Arm, JointKind, Linkage};
+
+/// A combination by function rather than by number.
+type Expansion = BTreeMap<Function, f64>;
 
 /// Largest total power of prismatic coordinates in D and G; what is found beyond is rounding of the transform, and
 /// would be 0 without.
 const MOST_POWER: u8 = 2;
 
+/// What `chain`, the functions of the joints, can become as functions of the coordinates, and what is differentiated for h.
+pub(super) fn functions(arm: &Arm, linkage: &Linkage, chain: &[Function]) -> Vec<Function> {
+    let parts = arm.parts();
+    let mut out = BTreeSet::from([Function { part: parts, ..Function::ONE }]);
+    for psi in chain.iter().filter(|psi| psi.power.iter().sum::<u8>() <= MOST_POWER) {
+        let (turned, _) = angle(psi, linkage, &parts);
+        for power in powers(psi, linkage).into_keys() {
+            for sine in [false, true] {
+                out.extend(Function { power, sine, ..turned }.canonical().map(|found| found.0));
+            }
+        }
+    }
+    let along = |psi: &Function| {
+        (0..arm.dof()).filter_map(|j| psi.derivative(j)).map(|found| found.0).collect::<Vec<_>>()
+    };
+    let derivatives: Vec<Function> = out.iter().flat_map(along).collect();
+    out.into_iter().chain(derivatives).collect()
+}
+
 /// Jᵀ D' J and the armature of the coordinates, by rows from the diagonal on, from D' in the same order.
-pub(super) fn mass_matrix(arm: &Arm, linkage: &Linkage, chain: &[Expansion]) -> Vec<Expansion> {
+pub(super) fn mass_matrix(
+    arm: &Arm,
+    linkage: &Linkage,
+    chain: (&Table, &[Combination]),
+    table: &Table,
+) -> Vec<Combination> {
     let (n, joints) = (arm.dof(), linkage.couplings.len());
     let parts = arm.parts();
     // Number of entry (i, j), i ≤ j, of a symmetric matrix of n rows.
@@ -27,9 +55,9 @@ pub(super) fn mass_matrix(arm: &Arm, linkage: &Linkage, chain: &[Expansion]) -> 
             if a > b {
                 continue;
             }
-            let entry = chain.get(place(i.min(j), i.max(j), joints));
+            let entry = chain.1.get(place(i.min(j), i.max(j), joints));
             if let (Some(terms), Some(sum)) = (entry, sums.get_mut(place(a, b, n))) {
-                add(sum, terms, first.multiplier * second.multiplier, linkage, &parts);
+                add(sum, (chain.0, terms), first.multiplier * second.multiplier, linkage, &parts);
             }
         }
     }
@@ -38,19 +66,29 @@ pub(super) fn mass_matrix(arm: &Arm, linkage: &Linkage, chain: &[Expansion]) -> 
             *sum.entry(Function { part: parts, ..Function::ONE }).or_insert(0.0) += joint.armature;
         }
     }
-    sums
+    sums.into_iter().map(|sum| numbered(sum, table)).collect()
+}
+
+/// By number; of the functions of `sum` the table lacks none.
+fn numbered(sum: Expansion, table: &Table) -> Combination {
+    sum.into_iter().filter_map(|(psi, k)| Some((table.number(&psi)?, k))).collect()
 }
 
 /// Jᵀ G' from the rows of G'.
-pub(super) fn gravity(arm: &Arm, linkage: &Linkage, chain: &[Expansion]) -> Vec<Expansion> {
+pub(super) fn gravity(
+    arm: &Arm,
+    linkage: &Linkage,
+    chain: (&Table, &[Combination]),
+    table: &Table,
+) -> Vec<Combination> {
     let parts = arm.parts();
     let mut sums: Vec<Expansion> = vec![Expansion::new(); arm.dof()];
-    for (coupling, terms) in linkage.couplings.iter().zip(chain) {
+    for (coupling, terms) in linkage.couplings.iter().zip(chain.1) {
         if let Some(sum) = sums.get_mut(coupling.coordinate) {
-            add(sum, terms, coupling.multiplier, linkage, &parts);
+            add(sum, (chain.0, terms), coupling.multiplier, linkage, &parts);
         }
     }
-    sums
+    sums.into_iter().map(|sum| numbered(sum, table)).collect()
 }
 
 /// By how much an error of the chain's entries grows when q' = J q + o is put in, as a part of Π max(1, q²) with the
@@ -72,8 +110,15 @@ pub(super) fn growth(linkage: &Linkage) -> (f64, f64) {
 }
 
 /// Adds `factor` times the chain's `terms` to `sum`, over the coordinates.
-fn add(sum: &mut Expansion, terms: &Expansion, factor: f64, linkage: &Linkage, parts: &[u8; MAX_JOINTS]) {
-    for (psi, k) in terms {
+fn add(
+    sum: &mut Expansion,
+    (chain, terms): (&Table, &Combination),
+    factor: f64,
+    linkage: &Linkage,
+    parts: &[u8; MAX_JOINTS],
+) {
+    for &(l, k) in terms {
+        let psi = &chain.functions[l];
         if psi.power.iter().sum::<u8>() > MOST_POWER {
             continue;
         }

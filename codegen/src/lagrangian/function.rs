@@ -46,7 +46,8 @@ impl Function {
 
     /// Frequency of joint `j`: κ_j / part_j.
     pub fn frequency(&self, j: usize) -> f64 {
-        f64::from(self.kappa[j]) / f64::from(self.part[j])
+        let kappa = f64::from(self.kappa[j]);
+        if self.part[j] == 1 { kappa } else { kappa / f64::from(self.part[j]) }
     }
 
     /// ∂ψ/∂q_k as (function, factor); `None` where it vanishes. For a prismatic joint the factor is
@@ -67,6 +68,24 @@ impl Function {
 
     /// ψ(q); joints beyond the slice count as 0.
     pub fn evaluate(&self, q: &[f64]) -> f64 {
+        let (monomial, angle) = self.parts_at(q);
+        monomial * if self.sine { libm::sin(angle) } else { libm::cos(angle) }
+    }
+
+    /// Whether this is the cosine and `other` the sine of the same angle, times the same powers.
+    pub(super) fn is_before(&self, other: &Self) -> bool {
+        !self.sine && *other == Self { sine: true, ..*self }
+    }
+
+    /// The values of a cosine and of the sine beside it, the same to the last bit as each alone.
+    pub(super) fn evaluate_both(&self, q: &[f64]) -> [f64; 2] {
+        let (monomial, angle) = self.parts_at(q);
+        let (sin, cos) = libm::sincos(angle);
+        [monomial * cos, monomial * sin]
+    }
+
+    /// Π q^power and the angle.
+    fn parts_at(&self, q: &[f64]) -> (f64, f64) {
         let mut angle = 0.0;
         let mut monomial = 1.0;
         for (j, (&q, &power)) in q.iter().zip(&self.power).enumerate() {
@@ -75,7 +94,7 @@ impl Function {
                 monomial *= q;
             }
         }
-        monomial * if self.sine { libm::sin(angle) } else { libm::cos(angle) }
+        (monomial, angle)
     }
 
     /// True for a function other than 1 in which every joint occurs once at most: |κ_j| ≤ 1, powers ≤ 1.
@@ -209,5 +228,28 @@ impl fmt::Display for Function {
             parts.push(format!("{}({angle})", if self.sine { "sin" } else { "cos" }));
         }
         if parts.is_empty() { f.write_str("1") } else { f.write_str(&parts.join(" ")) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Function, MAX_JOINTS};
+    use crate::numerics::low_discrepancy::LowDiscrepancy;
+
+    #[test]
+    fn both_together_are_each_alone_to_the_last_bit() {
+        let spread = LowDiscrepancy::new(2);
+        let tiny = (0..120).flat_map(|e| [1.0, -1.0, 1.37].map(|x| libm::ldexp(x, -e)));
+        let wide = (0..200_000).map(|index| 60.0 * (spread.point(index)[0] - 0.5));
+        let mut cosine = Function::ONE;
+        cosine.kappa[0] = 1;
+        cosine.power = [0; MAX_JOINTS];
+        let sine = Function { sine: true, ..cosine };
+        assert!(cosine.is_before(&sine) && !sine.is_before(&cosine));
+        for q in tiny.chain(wide).chain([0.0, -0.0]) {
+            let both = cosine.evaluate_both(&[q]);
+            let each = [cosine.evaluate(&[q]), sine.evaluate(&[q])];
+            assert_eq!(both.map(f64::to_bits), each.map(f64::to_bits), "{q:e}");
+        }
     }
 }

@@ -5,12 +5,13 @@ mod coefficients;
 mod coupled;
 mod expand;
 mod function;
+mod table;
 mod transform;
 mod values;
 
 pub use absolute::{Absolute, Coordinates};
 pub use coefficients::{Accuracy, Coefficient, Entry, Place};
-pub use expand::{Expansion, expand, expand_family};
+pub use expand::{expand, expand_family};
 pub use function::{Function, MAX_JOINTS, WHOLE};
 use serde::{Deserialize, Serialize};
 pub use values::Values;
@@ -58,7 +59,16 @@ impl Lagrangian {
 
     /// Values of all ψ at `q`.
     pub fn evaluate_functions(&self, q: &[f64]) -> Vec<f64> {
-        self.functions.iter().map(|psi| psi.evaluate(q)).collect()
+        let mut out = Vec::with_capacity(self.functions.len());
+        let mut rest = self.functions.iter().peekable();
+        while let Some(psi) = rest.next() {
+            // Cosine and sine of one angle stand side by side.
+            match rest.next_if(|next| psi.is_before(next)) {
+                Some(_) => out.extend(psi.evaluate_both(q)),
+                None => out.push(psi.evaluate(q)),
+            }
+        }
+        out
     }
 }
 

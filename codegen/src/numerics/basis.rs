@@ -19,10 +19,15 @@ impl Basis {
     /// Orthogonalises the columns in order, each twice for full accuracy, and passes over those that depend on
     /// the ones before.
     pub fn new(columns: &[Vec<f64>]) -> Self {
+        Self::of(columns.to_vec())
+    }
+
+    /// As [`Basis::new`], of columns that nobody else needs.
+    pub fn of(columns: Vec<Vec<f64>>) -> Self {
         let mut out = Self { directions: Vec::new(), columns: Vec::new(), count: columns.len() };
-        for (index, column) in columns.iter().enumerate() {
-            let points = column.len() as f64;
-            let mut vector = column.clone();
+        for (index, mut vector) in columns.into_iter().enumerate() {
+            let points = vector.len() as f64;
+            let square = dot(&vector, &vector);
             let mut components = vec![0.0; out.directions.len()];
             for _ in 0..2 {
                 for (direction, component) in out.directions.iter().zip(&mut components) {
@@ -32,7 +37,7 @@ impl Basis {
                 }
             }
             let size = libm::sqrt(dot(&vector, &vector) / points);
-            if size <= DEPENDENT * libm::sqrt(dot(column, column) / points) {
+            if size <= DEPENDENT * libm::sqrt(square / points) {
                 continue;
             }
             vector.iter_mut().for_each(|x| *x /= size);

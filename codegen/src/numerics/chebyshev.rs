@@ -64,6 +64,12 @@ pub(crate) fn spanning_points(basis: &Basis) -> Vec<usize> {
 /// Never worse than all parameters 0, and ends after a number of steps that depends on the number of directions
 /// alone: where rounding stops the exchange early, the best parameters so far are returned.
 pub(crate) fn fit(basis: &Basis, values: &[f64], start: &[usize]) -> Fit {
+    fit_below(basis, values, start, f64::INFINITY)
+}
+
+/// As [`fit`] where some parameters leave no residual above `most`; otherwise the exchange may end as soon as its level says
+/// so.
+pub(crate) fn fit_below(basis: &Basis, values: &[f64], start: &[usize], most: f64) -> Fit {
     let directions = &basis.directions;
     let count = directions.len();
     let (first, deviation) = largest(values);
@@ -85,7 +91,11 @@ pub(crate) fn fit(basis: &Basis, values: &[f64], start: &[usize]) -> Fit {
             best.deviation = deviation;
             best.parameters = parameters;
         }
-        if best.deviation <= best.level * (1.0 + TOLERANCE) || reference.iter().any(|a| a.point == point) {
+        let hopeless = best.level > most && best.deviation > most;
+        if hopeless
+            || best.deviation <= best.level * (1.0 + TOLERANCE)
+            || reference.iter().any(|a| a.point == point)
+        {
             break;
         }
         let entering = Active { point, sign: residual[point].signum() };

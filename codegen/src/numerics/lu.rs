@@ -30,8 +30,8 @@ impl Lu {
             for other in below {
                 let factor = other[k] / row[k];
                 other[k] = factor;
-                for j in k + 1..n {
-                    other[j] -= factor * row[j];
+                for (x, y) in other[k + 1..].iter_mut().zip(&row[k + 1..]) {
+                    *x -= factor * y;
                 }
             }
         }
@@ -62,13 +62,15 @@ impl Lu {
         let mut y = b.to_vec();
         for i in 0..n {
             y[i] /= self.factors[i][i];
-            for j in i + 1..n {
-                y[j] -= self.factors[i][j] * y[i];
+            let (done, rest) = y.split_at_mut(i + 1);
+            for (y, factor) in rest.iter_mut().zip(&self.factors[i][i + 1..]) {
+                *y -= factor * done[i];
             }
         }
         for i in (0..n).rev() {
-            for j in 0..i {
-                y[j] -= self.factors[i][j] * y[i];
+            let (rest, done) = y.split_at_mut(i);
+            for (y, factor) in rest.iter_mut().zip(&self.factors[i]) {
+                *y -= factor * done[0];
             }
         }
         let mut x = vec![0.0; n];

@@ -17,7 +17,7 @@ pub use expanded::expanded;
 pub use matrices::matrices;
 pub use plain::plain;
 pub use recursive::recursive;
-pub(crate) use recursive::{Plan, cost, planned};
+pub(crate) use recursive::{Plan, costs, planned};
 pub use regressor::{Regressor, regressor};
 use serde::{Deserialize, Serialize};
 pub use sparse::sparse;

@@ -13,7 +13,7 @@ use crate::lagrangian::expand;
 use crate::numerics::low_discrepancy::LowDiscrepancy;
 use crate::reduction;
 
-fn arm(file: &str) -> Arm {
+pub(super) fn arm(file: &str) -> Arm {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data").join(file);
     prepare(&path).expect("a sound specification").built.arm
 }
@@ -78,7 +78,7 @@ impl Numbers {
 }
 
 /// An arm with joints of both kinds, skew, square, parallel and opposed axes, and bodies without any symmetry.
-fn random_arm(seed: u64) -> Arm {
+pub(super) fn random_arm(seed: u64) -> Arm {
     let mut numbers = Numbers(seed);
     let n = 2 + (seed % 4) as usize;
     let joints = (0..n).map(|j| {

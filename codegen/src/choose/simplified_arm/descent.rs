@@ -6,7 +6,7 @@ use super::refit::Kept;
 use super::table::Table;
 use crate::arm::{Arm, Inertial, Quantity};
 use crate::parallel::Parallelize;
-use crate::torque::{Plan, cost, planned};
+use crate::torque::{Plan, costs, planned};
 
 /// The first level: the error at the points as a fraction of the joint's peak torque.
 const FIRST: f64 = 2e-4;
@@ -22,6 +22,8 @@ const TRIED: usize = 40;
 const TOGETHER: usize = 8;
 /// Of these, so many are refitted.
 const REFITTED: usize = 2;
+/// Arms whose recursions are counted in one graph.
+const COUNTED: usize = 16;
 
 struct Descent<'a> {
     table: &'a Table,
@@ -31,6 +33,8 @@ struct Descent<'a> {
     /// That of the whole arm and the last.
     plans: Vec<Plan>,
     kept: Kept,
+    /// How many moves each point has ruled out.
+    culprits: Vec<usize>,
 }
 
 /// The members with errors up to `most`.
@@ -53,7 +57,8 @@ pub(super) fn members(
     }
     let kept = Kept { groups, theta: table.own.clone() };
     let plan = planned(arm, &[]).1;
-    let mut descent = Descent { table, arm, parameters, refits, plans: vec![plan], kept };
+    let mut descent =
+        Descent { table, arm, parameters, refits, plans: vec![plan], kept, culprits: vec![0; table.points] };
     let mut out: Vec<ArmCandidate> = Vec::new();
     let mut cheapest = usize::MAX;
     let mut level = FIRST;
@@ -103,35 +108,20 @@ fn alike(table: &Table, parameters: &[Inertial], p: usize, q: usize) -> bool {
 impl Descent<'_> {
     /// Takes the most promising move that is admitted; false where none is.
     fn step(&mut self, level: f64) -> bool {
-        let now = self.cost(&self.kept.theta);
-        let mut found: Vec<(f64, Kept)> = moves(&self.kept, self.parameters, self.arm.dof())
-            .into_par_iter()
-            .filter_map(|groups| {
-                let mut next = Kept { groups, theta: Vec::new() };
-                let rotor = |group: &Vec<usize>| {
-                    group.iter().any(|&p| self.parameters[p].quantity == Quantity::Armature)
-                };
-                next.theta = next.near(self.table, &self.kept.theta, |group| self.refits || rotor(group))?;
-                let most = if self.refits { NEARLY * level } else { level };
-                if self.least(&next.theta) > most {
-                    return None;
-                }
-                // By the structure alone: what a refit makes of equal numbers is seen at the end of the level.
-                let mut structure = next.start(&self.kept.theta);
-                for (plain, fitted) in
-                    structure.iter_mut().zip(&next.theta).filter(|(plain, _)| **plain == 0.0)
-                {
-                    *plain = *fitted;
-                }
-                let saved = now.checked_sub(self.cost(&structure)).filter(|&saved| saved > 0)?;
-                Some((saved as f64 / self.burden(&next.theta).max(1e-12), next))
-            })
-            .collect();
+        let mut found = self.promising(level);
         found.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let most = if self.refits { NEARLY * level } else { level };
+        let order = self.strictest_first();
         let mut errors: Vec<f64> = Vec::new();
         for some in found.chunks(TOGETHER).take(TRIED / TOGETHER) {
-            let more: Vec<f64> = some.par_iter().map(|(_, next)| self.table.error(&next.theta)).collect();
-            errors.extend(more);
+            let error = |next: &Kept| self.table.error_within(&next.theta, &order, most);
+            for error in some.par_iter().map(|(_, next)| error(next)).collect::<Vec<_>>() {
+                if let Err(culprit) = error {
+                    self.culprits[culprit] += 1;
+                }
+                // Above the most that is refitted no move is looked at again.
+                errors.push(error.unwrap_or(f64::INFINITY));
+            }
             if errors.iter().any(|&error| error <= level) {
                 break;
             }
@@ -162,10 +152,54 @@ impl Descent<'_> {
         }
     }
 
-    /// What the recursion costs by the cheapest of the plans.
-    fn cost(&self, theta: &[f64]) -> usize {
-        let arm = self.with(theta);
-        self.plans.iter().map(|plan| cost(&arm, plan)).min().unwrap_or(usize::MAX)
+    /// The points, those first that are likely to rule out a move.
+    fn strictest_first(&self) -> Vec<usize> {
+        let errors = self.table.error_by_point(&self.kept.theta);
+        let mut order: Vec<usize> = (0..self.table.points).collect();
+        let later = |a: usize, b: usize| {
+            self.culprits[b].cmp(&self.culprits[a]).then(errors[b].total_cmp(&errors[a])).then(a.cmp(&b))
+        };
+        order.sort_by(|&a, &b| later(a, b));
+        order
+    }
+
+    /// The moves that save something, with what they save for what they add.
+    fn promising(&self, level: f64) -> Vec<(f64, Kept)> {
+        let most = if self.refits { NEARLY * level } else { level };
+        let near = |groups: Vec<Vec<usize>>| {
+            let mut next = Kept { groups, theta: Vec::new() };
+            let rotor =
+                |group: &Vec<usize>| group.iter().any(|&p| self.parameters[p].quantity == Quantity::Armature);
+            next.theta = next.near(self.table, &self.kept.theta, |group| self.refits || rotor(group))?;
+            if self.least(&next.theta) > most {
+                return None;
+            }
+            // By the structure alone: what a refit makes of equal numbers is seen at the end of the level.
+            let mut structure = next.start(&self.kept.theta);
+            for (plain, fitted) in structure.iter_mut().zip(&next.theta).filter(|(plain, _)| **plain == 0.0) {
+                *plain = *fitted;
+            }
+            Some((self.with(&structure), next))
+        };
+        let moves = moves(&self.kept, self.parameters, self.arm.dof());
+        let (arms, found): (Vec<Arm>, Vec<Kept>) =
+            moves.into_par_iter().filter_map(near).collect::<Vec<_>>().into_iter().unzip();
+        let whole = self.with(&self.kept.theta);
+        let counted: Vec<usize> =
+            arms.chunks(COUNTED).into_par_iter().flat_map_iter(|arms| self.costs(&whole, arms)).collect();
+        let now = self.costs(&whole, std::slice::from_ref(&whole)).first().copied().unwrap_or(usize::MAX);
+        let promise = |(cost, next): (usize, Kept)| {
+            let saved = now.checked_sub(cost).filter(|&saved| saved > 0)?;
+            Some((saved as f64 / self.burden(&next.theta).max(1e-12), next))
+        };
+        counted.into_iter().zip(found).filter_map(promise).collect()
+    }
+
+    /// What the recursions of arms like `whole` cost by the cheapest of the plans.
+    fn costs(&self, whole: &Arm, arms: &[Arm]) -> Vec<usize> {
+        let by_plan = self.plans.iter().map(|plan| costs(whole, arms, plan));
+        let cheaper = |a: Vec<usize>, b: Vec<usize>| a.into_iter().zip(b).map(|(a, b)| a.min(b)).collect();
+        by_plan.reduce(cheaper).unwrap_or_else(|| vec![usize::MAX; arms.len()])
     }
 
     /// Root of the squares by which the model moves.

@@ -84,7 +84,9 @@ impl Kept {
 
     /// Values for which the largest error is smaller than for the present ones, if there are any, and that error.
     pub fn refitted(&self, table: &Table) -> (Vec<f64>, f64) {
-        let mut best = (self.theta.clone(), table.error(&self.theta));
+        let mut residuals = table.residuals(&self.theta);
+        let mut errors = table.errors_of(&residuals);
+        let mut best = (self.theta.clone(), largest(&errors));
         let mut now = best.0.clone();
         let mut rows: Vec<Vec<f64>> = Vec::new();
         let mut values: Vec<f64> = Vec::new();
@@ -95,8 +97,6 @@ impl Kept {
             values.push(0.0);
         }
         for round in 0..ROUNDS {
-            let residuals = table.residuals(&now);
-            let errors = table.errors_of(&residuals);
             let mut order: Vec<usize> = (0..errors.len()).collect();
             order.sort_by(|&a, &b| errors[b].total_cmp(&errors[a]).then(a.cmp(&b)));
             let high = HIGH * largest(&errors);
@@ -113,7 +113,9 @@ impl Kept {
             for (group, step) in self.groups.iter().zip(steps) {
                 group.iter().for_each(|&p| now[p] -= step);
             }
-            let error = table.error(&now);
+            residuals = table.residuals(&now);
+            errors = table.errors_of(&residuals);
+            let error = largest(&errors);
             if error < best.1 {
                 best = (now.clone(), error);
             }

@@ -1,5 +1,6 @@
 //! What a sparse model costs, counted on its structure as the code will compute it.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::graph::TRIG_PAIR;
@@ -7,7 +8,7 @@ use crate::lagrangian::{Function, Lagrangian, MAX_JOINTS};
 use crate::reduction::CandidateFunction;
 use crate::reduction::{Rate, Term, grouped, rates, summed};
 
-/// Prices of candidates and of the places where coefficients stand.
+/// Costs of candidates and of the places where coefficients stand.
 pub(super) struct Costs {
     /// Nodes that a candidate needs.
     needs: Vec<Vec<usize>>,
@@ -19,6 +20,8 @@ pub(super) struct Costs {
     constant: Vec<bool>,
     /// By coefficient and row: rates with signs.
     places: Vec<Vec<Vec<Term>>>,
+    /// Their [`summed`] by coefficient, sign (1 where it is turned) and row.
+    alone_in_group: Vec<[Vec<Vec<Term>>; 2]>,
     dof: usize,
     /// [`crate::lagrangian::Coordinates::onto`] of a model in absolute angles.
     onto: Vec<i8>,
@@ -32,12 +35,17 @@ impl Costs {
         let alone = needs.iter().map(|needs| needs.iter().map(|&node| table.costs[node]).sum()).collect();
         let is_one =
             |c: &CandidateFunction| c.factors.iter().all(|&l| lagrangian.functions[l] == Function::ONE);
+        let places: Vec<_> = (0..lagrangian.coefficients.len()).map(|m| rates(lagrangian, m)).collect();
+        let of_sign = |rows: &Vec<Vec<Term>>, sign: f64| -> Vec<Vec<Term>> {
+            rows.iter().map(|row| summed(row.iter().map(|term| turned(term, sign)).collect()).0).collect()
+        };
         Self {
+            alone_in_group: places.iter().map(|rows| [1.0, -1.0].map(|sign| of_sign(rows, sign))).collect(),
             needs,
             alone,
             constant: candidates.iter().map(is_one).collect(),
             nodes: table.costs,
-            places: (0..lagrangian.coefficients.len()).map(|m| rates(lagrangian, m)).collect(),
+            places,
             dof: lagrangian.dof,
             onto: onto.map_or(vec![0; lagrangian.dof], <[i8]>::to_vec),
         }
@@ -50,7 +58,7 @@ impl Costs {
         let mut in_row = vec![0_usize; self.dof];
         let mut single: BTreeSet<Rate> = BTreeSet::new();
         let mut sums: BTreeSet<Vec<Term>> = BTreeSet::new();
-        let mut products: Vec<Vec<Term>> = Vec::new();
+        let mut products: Vec<Cow<[Term]>> = Vec::new();
         for (members, functions) in groups.filter(|(_, functions)| !functions.is_empty()) {
             cost += functions.len() - 1;
             for &f in functions {
@@ -63,27 +71,19 @@ impl Costs {
             }
             products.clear();
             for (row, count) in in_row.iter_mut().enumerate() {
-                let mut terms: Vec<Term> = Vec::new();
-                for &(m, sign) in members {
-                    let turned = |&(rate, s): &Term| (rate, if sign < 0.0 { -s } else { s });
-                    terms.extend(self.places[m][row].iter().map(turned));
-                }
+                let terms = self.row(members, row);
                 if terms.is_empty() {
                     continue;
                 }
                 *count += 1;
-                let (terms, _) = summed(terms);
-                if terms == [(Rate::One, 1)] {
-                    continue;
-                }
-                if products.contains(&terms) {
+                if *terms == [(Rate::One, 1)] || products.contains(&terms) {
                     continue;
                 }
                 cost += 1;
-                if terms.len() == 1 {
-                    single.insert(terms[0].0);
-                } else {
-                    sums.insert(terms.clone());
+                if let [(rate, _)] = *terms {
+                    single.insert(rate);
+                } else if !sums.contains(&*terms) {
+                    sums.insert(terms.to_vec());
                 }
                 products.push(terms);
             }
@@ -94,6 +94,15 @@ impl Costs {
         cost + in_row.iter().map(|count| count.saturating_sub(1)).sum::<usize>()
     }
 
+    /// What the group of `members` is multiplied by in a row, as [`summed`] has it.
+    fn row(&self, members: &[(usize, f64)], row: usize) -> Cow<'_, [Term]> {
+        if let &[(m, sign)] = members {
+            return Cow::Borrowed(&self.alone_in_group[m][usize::from(sign < 0.0)][row]);
+        }
+        let of = |&(m, sign): &(usize, f64)| self.places[m][row].iter().map(move |term| turned(term, sign));
+        Cow::Owned(summed(members.iter().flat_map(of).collect()).0)
+    }
+
     /// How often the groups need each node.
     pub fn uses<'a>(&self, groups: impl Iterator<Item = &'a [usize]>) -> Vec<usize> {
         let mut uses = vec![0; self.nodes.len()];
@@ -101,26 +110,32 @@ impl Costs {
         uses
     }
 
-    /// What a model of price `now` whose groups need nodes as `uses` says costs with the functions `new` in place of `old`
+    /// What a model of cost `now` whose groups need nodes as `uses` says costs with the functions `new` in place of `old`
     /// in one of its groups, neither of them empty, both ascending: rates and sums stay as they are.
     pub fn exchanged(&self, now: usize, uses: &[usize], old: &[usize], new: &[usize]) -> usize {
-        let beside = |a: &[usize], b: &[usize]| -> Vec<usize> {
-            a.iter().copied().filter(|f| b.binary_search(f).is_err()).collect()
+        let gone = || old.iter().copied().filter(|f| new.binary_search(f).is_err());
+        let come = || new.iter().copied().filter(|f| old.binary_search(f).is_err());
+        let terms = |f: usize| 2 - usize::from(self.constant[f]);
+        let needs = |f: usize, node: usize| self.needs[f].binary_search(&node).is_ok();
+        // Each node where it is first needed.
+        let first = |some: &mut dyn Iterator<Item = usize>, f: usize, node: usize| {
+            some.take_while(|&other| other != f).all(|other| !needs(other, node))
         };
-        let (gone, come) = (beside(old, new), beside(new, old));
-        let terms = |some: &[usize]| 2 * some.len() - some.iter().filter(|&&f| self.constant[f]).count();
-        let needed = |some: &[usize]| {
-            let mut nodes: Vec<usize> = some.iter().flat_map(|&f| self.needs[f].iter().copied()).collect();
-            nodes.sort_unstable();
-            nodes
-        };
-        let (before, after) = (needed(&gone), needed(&come));
-        let lost = before
-            .chunk_by(|a, b| a == b)
-            .filter(|same| uses[same[0]] == same.len() && after.binary_search(&same[0]).is_err());
-        let added = after.chunk_by(|a, b| a == b).filter(|same| uses[same[0]] == 0);
-        let cost = |same: &[usize]| self.nodes[same[0]];
-        now + terms(&come) + added.map(cost).sum::<usize>() - terms(&gone) - lost.map(cost).sum::<usize>()
+        let mut cost = now + come().map(terms).sum::<usize>();
+        for f in come() {
+            let added = |&&node: &&usize| uses[node] == 0 && first(&mut come(), f, node);
+            cost += self.needs[f].iter().filter(added).map(|&node| self.nodes[node]).sum::<usize>();
+        }
+        for f in gone() {
+            let times = |node: usize| gone().filter(|&other| needs(other, node)).count();
+            let lost = |&&node: &&usize| {
+                uses[node] == times(node)
+                    && first(&mut gone(), f, node)
+                    && !come().any(|other| needs(other, node))
+            };
+            cost -= self.needs[f].iter().filter(lost).map(|&node| self.nodes[node]).sum::<usize>();
+        }
+        cost - gone().map(terms).sum::<usize>()
     }
 
     /// What it takes to have the rates in absolute angles, and the joints' torques from those of the rows.
@@ -154,6 +169,10 @@ impl Costs {
         }
         cost
     }
+}
+
+fn turned(&(rate, s): &Term, sign: f64) -> Term {
+    (rate, if sign < 0.0 { -s } else { s })
 }
 
 /// What is computed once however many candidates need it.

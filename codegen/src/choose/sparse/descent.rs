@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::cost::Costs;
 use super::fitting::{Form, Table};
-use super::moves::{Moves, united};
+use super::moves::Moves;
 use super::ties::{exchanged, tied};
 use super::{STEP, STRICTEST, SparseCandidate, SparseProblem, start};
 use crate::parallel::Parallelize;
@@ -23,14 +23,18 @@ const POLISH: f64 = 1.2;
 /// Ties may bring the errors back up to this part of the level.
 const TIED: f64 = 0.97;
 
+/// Exchanges that are tried at a time.
+const TOGETHER: usize = 4;
+
 /// An exchange: the form for the slots.
 struct Exchange {
-    slots: Vec<usize>,
-    form: Form,
+    slots: Arc<[usize]>,
+    form: Arc<Form>,
+    /// Operations saved per burden added.
     score: f64,
 }
 
-/// The price of the model as it stands, and how often it needs what.
+/// The cost of the model as it stands, and how often it needs what.
 struct Now {
     cost: usize,
     uses: Vec<usize>,
@@ -49,8 +53,8 @@ pub(super) struct Descent<'a> {
     pub forms: Vec<Arc<Form>>,
     /// By joint and point.
     pub errors: Vec<Vec<f64>>,
-    simpler: Vec<Option<Arc<Vec<Form>>>>,
-    united: BTreeMap<(usize, usize), Arc<Vec<Form>>>,
+    simpler: Vec<Option<Arc<Vec<Arc<Form>>>>>,
+    united: BTreeMap<(usize, usize), Arc<Vec<Arc<Form>>>>,
     /// What each exchange took the place of, by the slot of its form.
     pub history: Vec<Vec<Before>>,
     /// A slot and the functions that it is not to keep again.
@@ -59,34 +63,46 @@ pub(super) struct Descent<'a> {
     keen: f64,
 }
 
-/// The members with errors up to `most`, of a descent as `keen` on large steps as that.
+impl<'a> Descent<'a> {
+    /// Before the first exchange, all that may come first found.
+    pub(super) fn new(
+        problem: &SparseProblem,
+        table: &'a Table,
+        costs: &'a Costs,
+        moves: &'a Moves<'a>,
+    ) -> Self {
+        let lagrangian = problem.lagrangian;
+        let forms: Vec<Arc<Form>> = (0..lagrangian.coefficients.len())
+            .into_par_iter()
+            .map(|m| Arc::new(start::forms(lagrangian, table, m)))
+            .collect();
+        let mut descent = Descent {
+            moves,
+            errors: errors(lagrangian.dof, table, &forms),
+            simpler: vec![None; forms.len()],
+            history: vec![Vec::new(); forms.len()],
+            barred: None,
+            keen: 1.0,
+            united: BTreeMap::new(),
+            costs,
+            table,
+            forms,
+        };
+        descent.refresh();
+        descent
+    }
+}
+
+/// The members with errors up to `most`, of a descent from `start` as `keen` on large steps as that.
 pub(super) fn members(
     problem: &SparseProblem,
     candidates: &[CandidateFunction],
-    table: &Table,
+    start: &Descent,
     most: f64,
     keen: f64,
 ) -> Vec<SparseCandidate> {
-    let lagrangian = problem.lagrangian;
-    let onto = problem.absolute.map(|absolute| absolute.coordinates.onto.as_slice());
-    let costs = Costs::new(lagrangian, candidates, onto);
-    let forms: Vec<Arc<Form>> = (0..lagrangian.coefficients.len())
-        .into_par_iter()
-        .map(|m| Arc::new(start::forms(lagrangian, table, m)))
-        .collect();
-    let moves = Moves::new(lagrangian, candidates, &costs);
-    let mut descent = Descent {
-        moves: &moves,
-        errors: errors(lagrangian.dof, table, &forms),
-        simpler: vec![None; forms.len()],
-        history: vec![Vec::new(); forms.len()],
-        barred: None,
-        keen,
-        united: BTreeMap::new(),
-        costs: &costs,
-        table,
-        forms,
-    };
+    let mut descent = Descent { keen, ..start.clone() };
+    let (dof, table) = (problem.lagrangian.dof, start.table);
     let mut out = Vec::new();
     let mut cheapest = usize::MAX;
     let (mut level, mut polished) = (STRICTEST, STRICTEST * POLISH);
@@ -99,11 +115,11 @@ pub(super) fn members(
         let cost = descent.cost();
         if cost < cheapest && largest(&descent.errors) <= level {
             cheapest = cost;
-            let mut tight = descent.clone();
+            let mut tight = descent.bare();
             tight.tighten();
             let room = (TIED * level).max(largest(&tight.errors));
             let forms = tied(table, &tight.forms, &tight.errors, room);
-            let error = largest(&errors(lagrangian.dof, table, &forms));
+            let error = largest(&errors(dof, table, &forms));
             out.push(SparseCandidate {
                 model: Sparse { absolute: problem.absolute.cloned(), ..sparse(candidates, &forms) },
                 error,
@@ -116,6 +132,20 @@ pub(super) fn members(
 }
 
 impl Descent<'_> {
+    /// The same forms without past and future.
+    fn bare(&self) -> Self {
+        let count = self.forms.len();
+        Self {
+            forms: self.forms.clone(),
+            errors: self.errors.clone(),
+            simpler: vec![None; count],
+            united: BTreeMap::new(),
+            history: vec![Vec::new(); count],
+            barred: None,
+            ..*self
+        }
+    }
+
     /// Takes exchanges as long as one is admitted.
     pub(super) fn descend(&mut self, level: f64) {
         while let Some(exchange) = self.best(level) {
@@ -123,13 +153,13 @@ impl Descent<'_> {
         }
     }
 
-    /// The price of the model as it stands.
+    /// The cost of the model as it stands.
     pub(super) fn cost(&self) -> usize {
         self.costs.of(self.forms.iter().map(|form| (form.members.as_slice(), form.kept.as_slice())))
     }
 
-    /// The price with `form` in the first of the slots and nothing in the others.
-    fn price_with(&self, slots: &[usize], form: &Form) -> usize {
+    /// The cost with `form` in the first of the slots and nothing in the others.
+    fn cost_with(&self, slots: &[usize], form: &Form) -> usize {
         self.costs.of(self.forms.iter().enumerate().map(|(s, old)| {
             match slots.iter().position(|&t| t == s) {
                 Some(0) => (form.members.as_slice(), form.kept.as_slice()),
@@ -139,7 +169,7 @@ impl Descent<'_> {
         }))
     }
 
-    /// Operations saved per burden added, the most among the exchanges that leave all errors within `level`.
+    /// Of the exchanges that leave all errors within `level` the one that saves most operations per burden added.
     fn best(&mut self, level: f64) -> Option<Exchange> {
         self.refresh();
         let now = Now {
@@ -148,64 +178,77 @@ impl Descent<'_> {
         };
         let slots = (0..self.forms.len()).into_par_iter();
         let single =
-            slots.filter_map(|s| self.better(&[s], self.simpler[s].as_deref()?.as_slice(), &now, level));
-        let pairs: Vec<_> = self.united.iter().filter(|(_, forms)| !forms.is_empty()).collect();
-        let double =
-            pairs.par_iter().filter_map(|((a, b), forms)| self.better(&[*a, *b], forms, &now, level));
-        let found: Vec<Exchange> = single.chain(double).collect();
-        found.into_iter().reduce(|best, other| if other.score > best.score { other } else { best })
+            slots.filter_map(|s| Some(self.cheaper(&[s], self.simpler[s].as_deref()?.as_slice(), &now)));
+        let pairs: Vec<_> = self.united.iter().collect();
+        let double = pairs.par_iter().map(|((a, b), forms)| self.cheaper(&[*a, *b], forms, &now));
+        let mut found: Vec<Exchange> =
+            single.chain(double).collect::<Vec<_>>().into_iter().flatten().collect();
+        // Of equal ones the first.
+        found.sort_by(|a, b| b.score.total_cmp(&a.score));
+        found.chunks(TOGETHER).find_map(|some| {
+            let admitted: Vec<_> = some.par_iter().map(|exchange| self.admitted(exchange, level)).collect();
+            let (exchange, form) = some.iter().zip(admitted).find_map(|(e, form)| Some((e, form?)))?;
+            Some(Exchange { slots: exchange.slots.clone(), form, score: exchange.score })
+        })
     }
 
-    fn better(&self, slots: &[usize], forms: &[Form], now: &Now, level: f64) -> Option<Exchange> {
-        let old: Vec<&Form> = slots.iter().map(|&s| &*self.forms[s]).collect();
+    /// The exchanges that save something.
+    fn cheaper(&self, slots: &[usize], forms: &[Arc<Form>], now: &Now) -> Vec<Exchange> {
+        let old = self.forms_of(slots);
         let burden: f64 = old.iter().map(|form| form.burden).sum();
-        let mut best: Option<Exchange> = None;
-        for form in forms {
-            if self
-                .barred
-                .as_ref()
-                .is_some_and(|(slot, kept)| slots.first() == Some(slot) && form.kept == *kept)
-            {
-                continue;
-            }
+        let barred = |form: &Form| {
+            let of = |(slot, kept): &(usize, Vec<usize>)| slots.first() == Some(slot) && form.kept == *kept;
+            self.barred.as_ref().is_some_and(of)
+        };
+        let shared: Arc<[usize]> = slots.into();
+        let mut out = Vec::new();
+        for form in forms.iter().filter(|form| !barred(form)) {
             let cost = match old.as_slice() {
                 // One group with the same members: rates and rows are as they were.
                 [old] if !form.kept.is_empty() && !old.kept.is_empty() => {
                     self.costs.exchanged(now.cost, &now.uses, &old.kept, &form.kept)
                 }
-                _ => self.price_with(slots, form),
+                _ => self.cost_with(slots, form),
             };
-            debug_assert_eq!(cost, self.price_with(slots, form));
+            debug_assert_eq!(cost, self.cost_with(slots, form));
             if cost >= now.cost {
                 continue;
             }
             let score = libm::pow((now.cost - cost) as f64, self.keen) / (form.burden - burden).max(1e-9);
-            if best.as_ref().is_some_and(|best| score <= best.score) {
-                continue;
-            }
-            let reached = self.largest_with(&old, form);
-            let admitted = if reached <= level {
-                Some(form.clone())
-            } else if reached <= NEARLY * level {
-                self.refitted(&old, form, level)
-            } else {
-                None
-            };
-            if let Some(form) = admitted {
-                best = Some(Exchange { slots: slots.to_vec(), form, score });
-            }
+            out.push(Exchange { slots: shared.clone(), form: form.clone(), score });
         }
-        best
+        out
+    }
+
+    fn forms_of(&self, slots: &[usize]) -> Vec<&Form> {
+        slots.iter().map(|&s| &*self.forms[s]).collect()
+    }
+
+    /// The form of the exchange, or its functions fitted again, where that keeps all errors within `level`.
+    fn admitted(&self, exchange: &Exchange, level: f64) -> Option<Arc<Form>> {
+        let old = self.forms_of(&exchange.slots);
+        let form = &exchange.form;
+        let refits = old.len() == 1 && form.members.len() == 1 && (1..=REFITTED).contains(&form.kept.len());
+        let most = if refits { NEARLY * level } else { level };
+        let reached = self.largest_with(&old, form, most)?;
+        if reached <= level { Some(form.clone()) } else { self.refitted(&old, form, level).map(Arc::new) }
     }
 
     /// As [`Self::fitted_to_room`], where that keeps all errors within `level`.
     fn refitted(&self, old: &[&Form], form: &Form, level: f64) -> Option<Form> {
-        let new = self.fitted_to_room(old, form, level)?;
-        (self.largest_with(old, &new) <= level).then_some(new)
+        let inverse = self.inverse_room(old, form, level)?;
+        let new = Form::within(self.table, form.members.clone(), form.kept.clone(), &inverse)?;
+        self.largest_with(old, &new, level).map(|_| new)
     }
 
     /// The form with the parameters that keep it furthest within what the others leave of `level`.
     pub(super) fn fitted_to_room(&self, old: &[&Form], form: &Form, level: f64) -> Option<Form> {
+        let inverse = self.inverse_room(old, form, level)?;
+        Some(Form::fitted(self.table, form.members.clone(), form.kept.clone(), Some(&inverse)))
+    }
+
+    /// By point what the others leave of `level`, inverted; `None` for forms that are not fitted to it.
+    fn inverse_room(&self, old: &[&Form], form: &Form, level: f64) -> Option<Vec<f64>> {
         let ([before], [(m, _)]) = (old, form.members.as_slice()) else { return None };
         if form.kept.is_empty() || form.kept.len() > REFITTED {
             return None;
@@ -217,13 +260,14 @@ impl Descent<'_> {
             self.table.shares[*m].iter().map(left).fold(f64::INFINITY, f64::min)
         };
         let floor = LEAST_ROOM * level / self.table.weights[*m];
-        let inverse: Vec<f64> = (0..residual.len()).map(|point| 1.0 / room(point).max(floor)).collect();
-        Some(Form::fitted(self.table, form.members.clone(), form.kept.clone(), Some(&inverse)))
+        Some((0..residual.len()).map(|point| 1.0 / room(point).max(floor)).collect())
     }
 
-    fn largest_with(&self, old: &[&Form], new: &Form) -> f64 {
+    /// The largest error with `new` in the place of `old`, where that is no more than `most`.
+    fn largest_with(&self, old: &[&Form], new: &Form, most: f64) -> Option<f64> {
         let residuals: Vec<&Vec<f64>> = old.iter().flat_map(|form| &form.residuals).collect();
         let mut largest = 0.0_f64;
+        let mut changed = vec![0.0; self.table.points()];
         for (i, errors) in self.errors.iter().enumerate() {
             let parts: Vec<(f64, &[f64], &[f64])> = new
                 .members
@@ -237,12 +281,31 @@ impl Descent<'_> {
             if parts.is_empty() {
                 continue;
             }
-            for (point, &error) in errors.iter().enumerate() {
-                let change: f64 = parts.iter().map(|(u, r, s)| u * (r[point].abs() - s[point].abs())).sum();
-                largest = largest.max(error + change);
+            let change = |point: usize| -> f64 {
+                parts.iter().map(|(u, r, s)| u * (r[point].abs() - s[point].abs())).sum()
+            };
+            // Where the new form leaves most, errors are likely to be too large.
+            if new.worst.iter().any(|&point| errors[point] + change(point) > most) {
+                return None;
+            }
+            match parts.as_slice() {
+                [(u, r, s)] => {
+                    for (((out, e), r), s) in changed.iter_mut().zip(errors).zip(*r).zip(*s) {
+                        *out = e + u * (r.abs() - s.abs());
+                    }
+                }
+                _ => changed
+                    .iter_mut()
+                    .zip(errors)
+                    .enumerate()
+                    .for_each(|(point, (out, e))| *out = e + change(point)),
+            }
+            largest = largest_of(&changed, largest);
+            if largest > most {
+                return None;
             }
         }
-        largest
+        Some(largest)
     }
 
     fn take(&mut self, exchange: Exchange) {
@@ -251,10 +314,10 @@ impl Descent<'_> {
         self.errors = exchanged(self.table, &self.errors, &forms, &exchange.form);
         let Some(&first) = exchange.slots.first() else { return };
         self.history[first].push(exchange.slots.iter().copied().zip(old).collect());
-        for &s in &exchange.slots {
+        for &s in exchange.slots.iter() {
             self.put(s, Arc::new(Form::nothing()));
         }
-        self.put(first, Arc::new(exchange.form));
+        self.put(first, exchange.form);
     }
 
     /// Puts `form` into a slot; the errors are not touched.
@@ -268,18 +331,19 @@ impl Descent<'_> {
     fn refresh(&mut self) {
         let new: Vec<usize> = (0..self.forms.len()).filter(|&s| self.simpler[s].is_none()).collect();
         let (table, moves, forms) = (self.table, &self.moves, &self.forms);
-        let simpler: Vec<Vec<Form>> = new.par_iter().map(|&s| moves.simpler(table, &forms[s])).collect();
+        let simpler: Vec<Vec<Arc<Form>>> = new.par_iter().map(|&s| moves.simpler(table, &forms[s])).collect();
         let keys: Vec<(usize, usize)> = new
             .iter()
             .flat_map(|&s| (0..forms.len()).filter(move |&t| t != s).map(move |t| (s.min(t), s.max(t))))
             .filter(|(a, b)| !forms[*a].kept.is_empty() && !forms[*b].kept.is_empty())
             .collect();
-        let both: Vec<Vec<Form>> =
-            keys.par_iter().map(|&(a, b)| united(table, &forms[a], &forms[b])).collect();
+        let both: Vec<Vec<Arc<Form>>> =
+            keys.par_iter().map(|&(a, b)| moves.united(table, &forms[a], &forms[b])).collect();
         for (s, forms) in new.into_iter().zip(simpler) {
             self.simpler[s] = Some(Arc::new(forms));
         }
-        self.united.extend(keys.into_iter().zip(both.into_iter().map(Arc::new)));
+        let both = keys.into_iter().zip(both.into_iter().map(Arc::new));
+        self.united.extend(both.filter(|(_, forms)| !forms.is_empty()));
     }
 }
 
@@ -297,7 +361,19 @@ pub(super) fn errors(dof: usize, table: &Table, forms: &[Arc<Form>]) -> Vec<Vec<
 }
 
 pub(super) fn largest(errors: &[Vec<f64>]) -> f64 {
-    errors.iter().flatten().fold(0.0, |m, &e| m.max(e))
+    errors.iter().fold(0.0, |most, row| largest_of(row, most))
+}
+
+/// The largest of `values` and `least`; comparisons side by side do not wait for one another.
+fn largest_of(values: &[f64], least: f64) -> f64 {
+    let mut most = [least; 8];
+    let (eights, rest) = values.as_chunks::<8>();
+    for eight in eights {
+        for (most, x) in most.iter_mut().zip(eight) {
+            *most = if x > most { *x } else { *most };
+        }
+    }
+    most.iter().chain(rest).fold(least, |most, &x| most.max(x))
 }
 
 fn sparse(candidates: &[CandidateFunction], forms: &[Arc<Form>]) -> Sparse {

@@ -2,11 +2,14 @@
 
 use super::SparseProblem;
 use crate::numerics::basis::Basis;
-use crate::numerics::chebyshev::{fit, spanning_points};
+use crate::numerics::chebyshev::{fit_below, spanning_points};
 use crate::numerics::vector::dot;
 
 /// Forms with more functions than this are fitted by least squares: there the search throws out what hardly matters.
 pub(super) const LARGE: usize = 6;
+
+/// Residuals in units of the room for them that no parameters bring below this are above the room for all rounding.
+const HOPELESS: f64 = 1.0 + 1e-6;
 
 /// Values at the points of a [`SparseProblem`].
 pub(super) struct Table {
@@ -48,6 +51,8 @@ pub(super) struct Form {
     pub parameters: Vec<f64>,
     /// What it leaves of each member.
     pub residuals: Vec<Vec<f64>>,
+    /// For each member the point where that is most.
+    pub worst: Vec<usize>,
     /// Its part of the torque errors, relative to the joints' torques, summed over joints: mean of the largest and the
     /// mean over the points.
     pub burden: f64,
@@ -56,8 +61,14 @@ pub(super) struct Form {
 impl Form {
     /// Where nothing is left of a group.
     pub fn nothing() -> Self {
-        let (members, kept, parameters, residuals) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { members, kept, parameters, residuals, burden: 0.0 }
+        Self {
+            members: Vec::new(),
+            kept: Vec::new(),
+            parameters: Vec::new(),
+            residuals: Vec::new(),
+            worst: Vec::new(),
+            burden: 0.0,
+        }
     }
 
     /// The parameters that minimise the largest residual, weighed by the members' weights or, for a single member, by
@@ -68,36 +79,26 @@ impl Form {
         kept: Vec<usize>,
         inverse_room: Option<&[f64]>,
     ) -> Self {
-        let scaled = |column: &[f64], m: usize, sign: f64| -> Vec<f64> {
-            let factor = if members.len() == 1 { sign } else { sign * table.weights[m] };
-            match inverse_room {
-                Some(weights) => column.iter().zip(weights).map(|(x, w)| factor * w * x).collect(),
-                None => column.iter().map(|x| factor * x).collect(),
-            }
-        };
-        let stacked = |f: &dyn Fn(usize, f64) -> Vec<f64>| -> Vec<f64> {
-            members.iter().flat_map(|&(m, sign)| f(m, sign)).collect()
-        };
-        let parameters = if kept.is_empty() {
-            Vec::new()
-        } else {
-            let columns: Vec<Vec<f64>> =
-                kept.iter().map(|&f| stacked(&|m, sign| scaled(&table.functions[f], m, sign))).collect();
-            let values = stacked(&|m, _| scaled(&table.coefficients[m], m, 1.0));
-            let basis = Basis::new(&columns);
-            let along = if kept.len() > LARGE {
-                basis.directions.iter().map(|e| dot(e, &values) / values.len() as f64).collect()
-            } else {
-                fit(&basis, &values, &spanning_points(&basis)).parameters
-            };
-            basis.over_columns(&along)
-        };
+        let parameters = parameters(table, &members, &kept, inverse_room, f64::INFINITY).unwrap_or_default();
         Self::with(table, members, kept, parameters)
+    }
+
+    /// The same of a single member with no residual above the room that `inverse_room` is of; `None` where no parameters
+    /// do that.
+    pub fn within(
+        table: &Table,
+        members: Vec<(usize, f64)>,
+        kept: Vec<usize>,
+        inverse_room: &[f64],
+    ) -> Option<Self> {
+        let parameters = parameters(table, &members, &kept, Some(inverse_room), HOPELESS)?;
+        Some(Self::with(table, members, kept, parameters))
     }
 
     /// The form with given parameters.
     pub fn with(table: &Table, members: Vec<(usize, f64)>, kept: Vec<usize>, parameters: Vec<f64>) -> Self {
         let mut burden = 0.0;
+        let mut worst = Vec::with_capacity(members.len());
         let residuals = members
             .iter()
             .map(|&(m, sign)| {
@@ -107,16 +108,59 @@ impl Form {
                         *r -= sign * k * psi;
                     }
                 }
-                let (mut largest, mut sum) = (0.0_f64, 0.0);
-                for r in &left {
-                    largest = largest.max(r.abs());
+                let (mut largest, mut at, mut sum) = (0.0_f64, 0, 0.0);
+                for (point, r) in left.iter().enumerate() {
+                    if r.abs() > largest {
+                        (largest, at) = (r.abs(), point);
+                    }
                     sum += r.abs();
                 }
+                worst.push(at);
                 let share: f64 = table.shares[m].iter().map(|s| s.1).sum();
                 burden += 0.5 * share * (largest + sum / left.len().max(1) as f64);
                 left
             })
             .collect();
-        Self { members, kept, parameters, residuals, burden }
+        Self { members, kept, parameters, residuals, worst, burden }
     }
+}
+
+/// The parameters of [`Form::fitted`]; `None` where every choice leaves a residual above `most`.
+fn parameters(
+    table: &Table,
+    members: &[(usize, f64)],
+    kept: &[usize],
+    inverse_room: Option<&[f64]>,
+    most: f64,
+) -> Option<Vec<f64>> {
+    if kept.is_empty() {
+        return Some(Vec::new());
+    }
+    // A column for every member, one below the other.
+    let stacked = |columns: &mut dyn Iterator<Item = (&[f64], f64, usize)>| -> Vec<f64> {
+        let mut out = Vec::with_capacity(members.len() * table.points());
+        for (column, sign, m) in columns {
+            let factor = if members.len() == 1 { sign } else { sign * table.weights[m] };
+            match inverse_room {
+                Some(weights) => out.extend(column.iter().zip(weights).map(|(x, w)| factor * w * x)),
+                None => out.extend(column.iter().map(|x| factor * x)),
+            }
+        }
+        out
+    };
+    let function =
+        |&f: &usize| stacked(&mut members.iter().map(|&(m, sign)| (table.functions[f].as_slice(), sign, m)));
+    let columns = kept.iter().map(function).collect();
+    let values = stacked(&mut members.iter().map(|&(m, _)| (table.coefficients[m].as_slice(), 1.0, m)));
+    let basis = Basis::of(columns);
+    let along = if kept.len() > LARGE {
+        basis.directions.iter().map(|e| dot(e, &values) / values.len() as f64).collect()
+    } else {
+        let fit = fit_below(&basis, &values, &spanning_points(&basis), most);
+        if fit.level > most {
+            return None;
+        }
+        fit.parameters
+    };
+    Some(basis.over_columns(&along))
 }

@@ -13,10 +13,14 @@ mod ties;
 
 use std::sync::Arc;
 
-use crate::lagrangian::{Absolute, Lagrangian, evaluate};
+use crate::lagrangian::{Absolute, Combination, Lagrangian};
+use crate::numerics::vector::add_scaled;
 use crate::parallel::Parallelize;
 use crate::reduction::{CandidateFunction, Sparse, products};
+use cost::Costs;
+use descent::Descent;
 use fitting::Table;
+use moves::Moves;
 
 /// Where the descent begins: the torque error at the points as a fraction of the joint's torque.
 pub const STRICTEST: f64 = 3.5e-3;
@@ -64,19 +68,22 @@ pub fn family(problem: &SparseProblem, most: f64) -> Vec<SparseCandidate> {
     let mut candidates: Vec<CandidateFunction> =
         (0..lagrangian.functions.len()).map(CandidateFunction::harmonic).collect();
     candidates.extend(products(lagrangian, 3));
-    let rows: Vec<(Vec<f64>, Vec<f64>)> = problem
-        .points
-        .par_iter()
-        .map(|q| {
-            let psi = lagrangian.evaluate_functions(q);
-            let functions = candidates.iter().map(|c| evaluate(&c.expansion, &psi)).collect();
-            (functions, lagrangian.coefficients.iter().map(|c| evaluate(&c.terms, &psi)).collect())
-        })
-        .collect();
-    let functions = (0..candidates.len()).map(|f| rows.iter().map(|row| row.0[f]).collect()).collect();
-    let coefficients =
-        (0..lagrangian.coefficients.len()).map(|m| rows.iter().map(|row| row.1[m]).collect()).collect();
+    let rows: Vec<Vec<f64>> = problem.points.par_iter().map(|q| lagrangian.evaluate_functions(q)).collect();
+    let psi: Vec<Vec<f64>> =
+        (0..lagrangian.functions.len()).map(|l| rows.iter().map(|row| row[l]).collect()).collect();
+    // As `evaluate` adds them, at all points at once.
+    let column = |terms: &Combination| {
+        let mut out = vec![0.0; problem.points.len()];
+        terms.iter().for_each(|&(l, k)| add_scaled(&mut out, k, &psi[l]));
+        out
+    };
+    let functions = candidates.par_iter().map(|candidate| column(&candidate.expansion)).collect();
+    let coefficients = lagrangian.coefficients.par_iter().map(|c| column(&c.terms)).collect();
     let table = Table::new(problem, functions, coefficients);
-    let one = |&keen: &f64| descent::members(problem, &candidates, &table, most.min(LAST), keen);
+    let onto = problem.absolute.map(|absolute| absolute.coordinates.onto.as_slice());
+    let costs = Costs::new(lagrangian, &candidates, onto);
+    let moves = Moves::new(lagrangian, &candidates, &costs);
+    let start = Descent::new(problem, &table, &costs, &moves);
+    let one = |&keen: &f64| descent::members(problem, &candidates, &start, most.min(LAST), keen);
     KEEN.par_iter().flat_map_iter(one).collect()
 }

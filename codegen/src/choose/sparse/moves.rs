@@ -1,6 +1,7 @@
 //! Cheaper forms in place of the ones that a model has.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::cost::Costs;
 use super::fitting::{Form, LARGE, Table};
@@ -15,6 +16,12 @@ const UNITED: usize = 5;
 /// Parameters of the same function in two forms to be united differ by no more than this factor.
 const ALIKE: f64 = 1.4;
 
+/// So many forms are remembered at most; of a PUMA 560 they take some tens of megabytes.
+const REMEMBERED: usize = 1 << 14;
+
+/// Members, with the bits of their signs, and functions of a form.
+type Key = (Vec<(usize, u64)>, Vec<usize>);
+
 /// The candidates by the ψ that they contain.
 pub(super) struct Moves<'a> {
     candidates: &'a [CandidateFunction],
@@ -22,6 +29,8 @@ pub(super) struct Moves<'a> {
     /// Products by ψ, without the constant.
     containing: Vec<Vec<usize>>,
     one: Option<usize>,
+    /// Forms fitted before: a descent comes to the same ones again and again.
+    fitted: Mutex<BTreeMap<Key, Arc<Form>>>,
 }
 
 impl<'a> Moves<'a> {
@@ -33,11 +42,27 @@ impl<'a> Moves<'a> {
                 containing[l].push(f);
             }
         }
-        Self { candidates, costs, containing, one }
+        Self { candidates, costs, containing, one, fitted: Mutex::default() }
+    }
+
+    /// [`Form::fitted`] without regard to room.
+    fn fitted(&self, table: &Table, members: Vec<(usize, f64)>, kept: Vec<usize>) -> Arc<Form> {
+        let key = (members.iter().map(|&(m, sign)| (m, sign.to_bits())).collect(), kept);
+        let known = || self.fitted.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(form) = known().get(&key) {
+            return form.clone();
+        }
+        let form = Arc::new(Form::fitted(table, members, key.1.clone(), None));
+        let mut known = known();
+        if known.len() >= REMEMBERED {
+            known.clear();
+        }
+        known.insert(key, form.clone());
+        form
     }
 
     /// `form` with one function less, or with a cheaper function in place of one or more.
-    pub fn simpler(&self, table: &Table, form: &Form) -> Vec<Form> {
+    pub fn simpler(&self, table: &Table, form: &Form) -> Vec<Arc<Form>> {
         if form.kept.len() > LONG.max(LARGE + 1)
             && let Some(shorter) = shorter(table, form)
         {
@@ -75,12 +100,32 @@ impl<'a> Moves<'a> {
                 }
             }
         }
-        choices.into_iter().map(|kept| Form::fitted(table, form.members.clone(), kept, None)).collect()
+        choices.into_iter().map(|kept| self.fitted(table, form.members.clone(), kept)).collect()
+    }
+
+    /// One form for the coefficients of both, where theirs are alike.
+    pub fn united(&self, table: &Table, a: &Form, b: &Form) -> Vec<Arc<Form>> {
+        let alike = a.kept.len().abs_diff(b.kept.len()) <= 1 && a.kept.len().max(b.kept.len()) <= UNITED;
+        let parameter = |form: &Form, f: usize| {
+            form.kept.iter().position(|&kept| kept == f).map(|place| form.parameters[place])
+        };
+        let shared = a.kept.iter().find_map(|&f| Some(parameter(a, f)? / parameter(b, f)?));
+        let Some(ratio) = shared.filter(|ratio| alike && ratio.abs() < ALIKE && ratio.abs() > 1.0 / ALIKE)
+        else {
+            return Vec::new();
+        };
+        let turned = b.members.iter().map(|&(m, sign)| (m, sign * ratio.signum()));
+        let members: Vec<_> = a.members.iter().copied().chain(turned).collect();
+        let mut choices = vec![&a.kept];
+        if a.kept != b.kept {
+            choices.push(&b.kept);
+        }
+        choices.into_iter().map(|kept| self.fitted(table, members.clone(), kept.clone())).collect()
     }
 }
 
 /// A form of one coefficient with one function less, by least squares; `None` where there are several coefficients.
-fn shorter(table: &Table, form: &Form) -> Option<Vec<Form>> {
+fn shorter(table: &Table, form: &Form) -> Option<Vec<Arc<Form>>> {
     let &[(m, sign)] = form.members.as_slice() else { return None };
     let columns: Vec<&Vec<f64>> = form.kept.iter().map(|&f| &table.functions[f]).collect();
     let values: Vec<f64> = table.coefficients[m].iter().map(|alpha| sign * alpha).collect();
@@ -89,26 +134,7 @@ fn shorter(table: &Table, form: &Form) -> Option<Vec<Form>> {
         let rest = || (0..form.kept.len()).filter(move |&i| i != gone);
         let parameters = squares.without(gone);
         let kept = rest().map(|i| form.kept[i]).collect();
-        Form::with(table, form.members.clone(), kept, rest().map(|i| parameters[i]).collect())
+        Arc::new(Form::with(table, form.members.clone(), kept, rest().map(|i| parameters[i]).collect()))
     };
     Some((0..form.kept.len()).map(without).collect())
-}
-
-/// One form for the coefficients of both, where theirs are alike.
-pub(super) fn united(table: &Table, a: &Form, b: &Form) -> Vec<Form> {
-    let alike = a.kept.len().abs_diff(b.kept.len()) <= 1 && a.kept.len().max(b.kept.len()) <= UNITED;
-    let parameter = |form: &Form, f: usize| {
-        form.kept.iter().position(|&kept| kept == f).map(|place| form.parameters[place])
-    };
-    let shared = a.kept.iter().find_map(|&f| Some(parameter(a, f)? / parameter(b, f)?));
-    let Some(ratio) = shared.filter(|ratio| alike && ratio.abs() < ALIKE && ratio.abs() > 1.0 / ALIKE) else {
-        return Vec::new();
-    };
-    let turned = b.members.iter().map(|&(m, sign)| (m, sign * ratio.signum()));
-    let members: Vec<_> = a.members.iter().copied().chain(turned).collect();
-    let mut choices = vec![&a.kept];
-    if a.kept != b.kept {
-        choices.push(&b.kept);
-    }
-    choices.into_iter().map(|kept| Form::fitted(table, members.clone(), kept.clone(), None)).collect()
 }

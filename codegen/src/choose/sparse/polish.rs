@@ -70,18 +70,39 @@ impl Descent<'_> {
 
     /// Lowers what exceeds `aim`, form by form.
     fn press(&mut self, aim: f64) {
-        let excess = |errors: &[Vec<f64>]| errors.iter().flatten().map(|e| (e - aim).max(0.0)).sum::<f64>();
+        let excess = |errors: &[Vec<f64>]| {
+            let mut sum = 0.0;
+            for row in errors {
+                row.iter().filter(|&&e| e > aim).for_each(|e| sum += e - aim);
+            }
+            sum
+        };
+        let exceeds = |errors: &[Vec<f64>]| -> Vec<bool> {
+            errors.iter().map(|row| row.iter().any(|&e| e > aim)).collect()
+        };
+        let mut now = excess(&self.errors);
+        let mut above = exceeds(&self.errors);
         for _ in 0..TIMES {
+            let before = now;
             for slot in 0..self.forms.len() {
                 let old = self.forms[slot].clone();
+                let shares = |&(m, _): &(usize, f64)| &self.table.shares[m];
+                // Where it enters no joint's torque that is off by more, it cannot help.
+                if !old.members.iter().flat_map(shares).any(|&(i, _)| above[i]) {
+                    continue;
+                }
                 let Some(new) = self.fitted_to_room(&[&old], &old, aim) else { continue };
                 let errors = exchanged(self.table, &self.errors, &[&old], &new);
-                if excess(&errors) < excess(&self.errors) {
+                let then = excess(&errors);
+                if then < now {
+                    now = then;
+                    above = exceeds(&errors);
                     self.errors = errors;
                     self.put(slot, Arc::new(new));
                 }
             }
-            if largest(&self.errors) <= aim {
+            // Where nothing was gained nothing more would be.
+            if now == before || largest(&self.errors) <= aim {
                 return;
             }
         }

@@ -2,7 +2,7 @@
 
 use super::super::basis::Basis;
 use super::super::vector::dot;
-use super::{Fit, fit, residuals, spanning_points};
+use super::{Fit, fit, fit_below, residuals, spanning_points};
 use crate::numerics::low_discrepancy::LowDiscrepancy;
 
 /// Points of an arc |θ| ≤ `half`.
@@ -98,4 +98,24 @@ fn what_cannot_be_improved_is_left_alone() {
     // Fewer points than functions need: nothing to exchange.
     let (_, few) = best(&[vec![1.0, 2.0], vec![1.0, -1.0]], &[3.0, 4.0]);
     assert_eq!(few.deviation, 4.0);
+}
+
+#[test]
+fn a_fit_below_what_can_be_reached_ends_early_and_any_other_is_the_same() {
+    let points = arc(1.4);
+    let columns: Vec<Vec<f64>> =
+        (0..5).map(|k| points.iter().map(|t| libm::cos(f64::from(k) * t)).collect()).collect();
+    let values: Vec<f64> = points.iter().map(|t| libm::exp(*t)).collect();
+    let basis = Basis::new(&columns);
+    let start = spanning_points(&basis);
+    let best = fit(&basis, &values, &start);
+    assert!(best.level > 0.0);
+    for most in [best.deviation, 1.5 * best.deviation] {
+        assert_eq!(fit_below(&basis, &values, &start, most), best);
+    }
+    for part in [0.999, 0.5, 0.01] {
+        let most = part * best.level;
+        let early = fit_below(&basis, &values, &start, most);
+        assert!(early.level > most && early.deviation > most, "{part}");
+    }
 }

@@ -36,6 +36,18 @@ pub(super) struct Choice {
     pub origin: Origin,
 }
 
+impl Choice {
+    /// What how the link moves depends on, besides the choice of the link before.
+    pub fn motion(&self) -> (bool, Row, Diagonal, Corner, bool) {
+        (self.sum, self.row, self.diagonal, self.corner, self.afresh)
+    }
+
+    /// What depends on it of what moves the body.
+    pub fn wrench(&self) -> ([bool; 5], Round) {
+        ([self.still_sigma, self.still_force, self.still_pull, self.mixed, self.axial], self.round)
+    }
+}
+
 /// How much of Σ_xx and Σ_yy counts as round about z.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Round {

@@ -2,72 +2,36 @@
 
 mod choice;
 mod motion;
+mod pass;
 mod search;
 mod vector;
 mod wrench;
 
 pub use search::recursive;
-pub(crate) use search::{Plan, cost, planned};
+pub(crate) use search::{Plan, costs, planned};
 
 use crate::arm::{Arm, Joint, JointKind, Transform};
 use crate::graph::{Builder, Expr, Graph, Variable};
 use choice::Choice;
-use motion::{Frame, Motion, Products, Step, advance, to_parent};
+use motion::{Frame, Motion, Products, Step};
+use pass::Pass;
 use vector::{Turn, Vector, transposed};
-use wrench::{Units, Wrench, own};
+use wrench::{Units, Wrench};
 
 /// The recursion over a placed and regrouped arm, each link as `choices` says; in `units`, which must be
-/// metres for an arm with a prismatic joint. With `names` for whom the graph is written out.
-fn build(arm: &Arm, choices: &[Choice], units: &Units, names: bool) -> Graph {
+/// metres for an arm with a prismatic joint. Written out for a person, with names.
+fn build(arm: &Arm, choices: &[Choice], units: &Units) -> Graph {
     let builder = Builder::new();
-    let steps: Vec<Step> =
-        (0..arm.dof()).map(|j| step(&builder, &arm.joints[j], j, &choices[j], units)).collect();
-    let mut motions = vec![base(&builder, arm, units)];
-    for (j, step) in steps.iter().enumerate() {
-        let before = j.checked_sub(1).map_or(Choice::default(), |i| choices[i]);
-        let motion = advance(&motions[j], step, &before, &choices[j]);
-        if names {
-            name_motion(&motion, j + 1);
-        }
-        motions.push(motion);
+    let pass = Pass::new(&builder, arm.clone(), choices, units, None);
+    for (j, motion) in pass.motions.iter().enumerate().skip(1) {
+        name_motion(motion, j);
     }
-    let zero = builder.constant(0.0);
-    let mut torques = Vec::new();
-    // What the links after this one ask for, in its still and in its own frame.
-    let (mut still, mut turned) = (Wrench::zero(zero), Wrench::zero(zero));
-    for j in (0..arm.dof()).rev() {
-        let (joint, step, choice) = (&arm.joints[j], &steps[j], &choices[j]);
-        let motion = &motions[j + 1];
-        let (own_still, own_turned) = own(&joint.body, motion, choice, units);
-        let inner = turned.plus(&own_turned);
-        let outer = still.plus(&own_still);
-        let whole = match &motion.turn {
-            Some(turn) => inner.outward(turn).plus(&outer),
-            None => inner.plus(&outer),
-        };
-        if names {
-            name_wrench(&inner, j + 1);
-            name_wrench(&whole, j + 1);
-        }
-        let along = match joint.kind {
-            JointKind::Revolute => whole.moment[2],
-            JointKind::Prismatic => whole.force[2],
-        };
-        torques.push(along + builder.constant(joint.armature) * builder.input(Variable::Ar(j)));
-        let whole = match (joint.kind, step.q) {
-            (JointKind::Prismatic, Some(q)) => whole.about([zero, zero, q]),
-            _ => whole,
-        };
-        let seen = Wrench { force: to_parent(step, whole.force), moment: to_parent(step, whole.moment) };
-        (still, turned) = (Wrench::zero(zero), Wrench::zero(zero));
-        match (choice.sum, motions[j].turn) {
-            (true, Some(turn)) => still = seen.about(turn.outward(step.lever)),
-            _ => turned = seen.about(step.lever),
-        }
+    for (j, link) in pass.links.iter().enumerate().rev() {
+        name_wrench(&link.inner, j + 1);
+        name_wrench(&link.whole, j + 1);
     }
-    torques.reverse();
     let outputs: Vec<_> =
-        (1..).zip(torques).map(|(i, tau)| tau.named(&format!("tau{i}"), true).id()).collect();
+        (1..).zip(&pass.links).map(|(i, link)| link.torque.named(&format!("tau{i}"), true).id()).collect();
     builder.finish(&outputs)
 }
 

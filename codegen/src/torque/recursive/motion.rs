@@ -10,7 +10,7 @@ use crate::arm::JointKind;
 use crate::graph::Expr;
 
 /// What one frame knows of a link's motion.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(super) struct Frame<'g> {
     /// ω.
     pub w: Vector<'g>,
@@ -23,7 +23,7 @@ pub(super) struct Frame<'g> {
 }
 
 /// Products of velocities that moments can be made of.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(super) struct Products<'g> {
     /// ½(x y_r + y x_r).
     pub xy: Expr<'g>,
@@ -36,7 +36,7 @@ pub(super) struct Products<'g> {
 }
 
 /// A link's motion.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(super) struct Motion<'g> {
     /// In the frame that has not turned with the joint.
     pub still: Frame<'g>,

@@ -45,7 +45,7 @@ pub(super) fn transposed(r: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
 }
 
 /// A turn about z by the angle of this sine and cosine.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(super) struct Turn<'g> {
     pub sin: Expr<'g>,
     pub cos: Expr<'g>,

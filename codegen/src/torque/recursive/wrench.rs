@@ -7,7 +7,7 @@ use crate::arm::Body;
 use crate::graph::Expr;
 
 /// Force, and moment about a frame's origin.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(super) struct Wrench<'g> {
     pub force: Vector<'g>,
     pub moment: Vector<'g>,
