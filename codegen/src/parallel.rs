@@ -174,7 +174,7 @@ mod tests {
     fn what_is_inside_another_ends() {
         let sums: Vec<usize> = (0..200_usize)
             .into_par_iter()
-            .map(|x| (0..x).into_par_iter().map(|y| y).reduce(|| 0, |a, b| a + b))
+            .map(|x| (0..x).into_par_iter().map(|y| y).collect::<Vec<_>>().into_iter().sum())
             .collect();
         assert!(sums.iter().enumerate().all(|(x, sum)| 2 * sum == x * x.saturating_sub(1)));
     }

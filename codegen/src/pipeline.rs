@@ -46,7 +46,7 @@ struct Means<'a> {
 /// [`Error::Input`] with all faults of the specification and the files that it names.
 fn run(loaded: Loaded, extent: Extent, means: Means) -> Result<Generation, Error> {
     threads::check()?;
-    let checked = checked(loaded, extent)?;
+    let checked = checked(loaded.clone(), extent).map_err(|error| expanded::with_count(error, &loaded))?;
     let certified = proved::kept_or(checked, means, |checked| {
         let expanded = Expanded::new(checked, means)?;
         let sampled = Sampled::new(expanded, means)?;

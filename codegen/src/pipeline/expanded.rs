@@ -2,14 +2,16 @@
 
 use super::Means;
 use super::modelled::check_count;
-use crate::arm::indefinite;
+use crate::arm::{Arm, Built, indefinite};
 use crate::check::Checked;
 use crate::domain::Domain;
 use crate::dynamics::mass_matrix;
 use crate::error::{Diagnostics, Error};
 use crate::lagrangian::{Lagrangian, expand_family};
+use crate::load::Loaded;
 use crate::motion::Motion;
 use crate::progress::Stage;
+use crate::spec::ModelSpec;
 
 /// Pieces of a motion from which on the module's size is told, and what one of one joint adds to its text, bytes.
 const LONG_MOTION: usize = 2_000;
@@ -51,6 +53,20 @@ impl Expanded {
         check_count(&checked.loaded.spec, &lagrangian, &mut faults);
         faults.finish(Self { checked, warnings, lagrangian })
     }
+}
+
+/// `error` with the fault of a model that has fewer functions than are asked for, where the arm alone is sound: all faults
+/// are told at once.
+pub(super) fn with_count(error: Error, loaded: &Loaded) -> Error {
+    let Error::Input(known) = error else { return error };
+    let mut faults = Diagnostics::of(&loaded.path);
+    faults.extend(known);
+    let asks = matches!(loaded.spec.model, ModelSpec::Shared { .. } | ModelSpec::Separate { .. });
+    let built = Arm::from_spec(loaded, &mut Diagnostics::of(&loaded.path)).filter(|_| asks);
+    if let Some(Built { arm, uncertainty, .. }) = built {
+        check_count(&loaded.spec, &expand_family(&arm, &uncertainty), &mut faults);
+    }
+    faults.into_error()
 }
 
 /// What is said of a motion of many pieces: all of them stand in the module.
