@@ -55,7 +55,7 @@ impl Form {
     }
 }
 
-/// The exact torque in the form with fewer operations; the recursion where they tie.
+/// The exact torque in the form that costs less; the recursion where they tie.
 pub fn exact(arm: &Arm, lagrangian: &Lagrangian) -> (Form, Graph) {
     let recursive = recursive(arm);
     if lagrangian.terms() <= LONG {
@@ -63,7 +63,7 @@ pub fn exact(arm: &Arm, lagrangian: &Lagrangian) -> (Form, Graph) {
         if lagrangian.terms() <= SHORT {
             expanded = expanded.factored();
         }
-        if expanded.operations().arithmetic() < recursive.operations().arithmetic() {
+        if expanded.operations().cost() < recursive.operations().cost() {
             return (Form::Expanded, expanded);
         }
     }

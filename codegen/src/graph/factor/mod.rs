@@ -48,7 +48,7 @@ impl Graph {
             system.make(&change);
         }
         let out = system.graph();
-        let pays = out.operations().arithmetic() < self.operations().arithmetic();
+        let pays = out.operations().cost() < self.operations().cost();
         if pays && out.is_finite() { out } else { self.clone() }
     }
 }

@@ -8,9 +8,6 @@ use super::wrench::Units;
 use crate::arm::{Arm, JointKind, Origin};
 use crate::graph::{Builder, Graph};
 
-/// What a sine and cosine count beside one multiplication or addition.
-const TRIG: usize = 30;
-
 /// A way to compute the recursion, found for one arm and good for any other with the same joints.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Plan {
@@ -156,7 +153,7 @@ impl<'a, 'g> Search<'a, 'g> {
 /// Operations of a run in the measure of the search.
 fn counted(builder: &Builder, pass: &Pass) -> usize {
     let operations = builder.operations(pass.links.iter().map(|link| link.torque.id()));
-    operations.map_or(usize::MAX, |count| count.arithmetic() + TRIG * count.trig_pairs)
+    operations.map_or(usize::MAX, |count| count.cost())
 }
 
 /// The arm with its frames placed.

@@ -13,7 +13,7 @@ fn arms() -> impl Iterator<Item = Arm> {
 fn anew(arm: &Arm, plan: &Plan) -> usize {
     let graph = build(&based(&placed(arm, &plan.choices), &plan.choices), &plan.choices, &plan.units);
     let operations = graph.operations();
-    let cost = operations.arithmetic() + TRIG * operations.trig_pairs;
+    let cost = operations.cost();
     if graph.is_finite() { cost } else { usize::MAX }
 }
 
