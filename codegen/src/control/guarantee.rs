@@ -34,6 +34,8 @@ pub struct Guarantee {
     /// slope ρ/φ inside the layer and what is learnt within a period. The sign function has no slope to count: its
     /// chatter counts in `final_error`.
     pub period_max: f64,
+    /// Whether nothing in the domain is proved to be faster than that period supposes.
+    pub period_certified: bool,
     /// Bound on |q_e| by joint, rad or m, once the effect of the initial errors has died away: a short motion may end
     /// before that. Rounding in f64 is counted, so it is 0 only where nothing is computed.
     pub final_error: Vec<f64>,
@@ -169,6 +171,7 @@ impl Parts<'_> {
             holds: reasons.is_empty(),
             reasons,
             period_max,
+            period_certified: longest.certified,
             final_error,
             initial_error_max,
             tube_needed,

@@ -26,19 +26,24 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
     let promised = &design.guarantee;
     let guaranteed = promised.holds;
     let guaranteed_docs = docs::guaranteed(promised);
-    let period_max = float(promised.period_max)?;
-    let final_error = vector(&promised.final_error)?;
+    let some = |known: bool, value: TokenStream| match known {
+        true => quote!(::core::option::Option::Some(#value)),
+        false => quote!(::core::option::Option::None),
+    };
+    let period_max = some(promised.period_certified, float(promised.period_max)?);
+    let final_error = some(promised.holds, vector(&promised.final_error)?);
     Ok(quote! {
         #(#[doc = #guaranteed_docs])*
         #unused
         pub const GUARANTEED: bool = #guaranteed;
-        /// Periods below this keep the sampled loop stable at every D of the domain, held still, s.
+        /// Control period, s, below which the sampled loop is stable at every D of the domain, each D kept constant. `None` if
+        /// it could not be certified.
         #constant
-        pub const PERIOD_MAX: f64 = #period_max;
+        pub const PERIOD_MAX: ::core::option::Option<f64> = #period_max;
         /// Bound on |q − q_d| by joint, rad or m, once the effect of the initial errors has died away. A short motion may end
-        /// before that. The bound holds only where [`GUARANTEED`] is true.
+        /// before that. `None` if nothing is guaranteed.
         #constant
-        pub const FINAL_ERROR: [f64; #n] = #final_error;
+        pub const FINAL_ERROR: ::core::option::Option<[f64; #n]> = #final_error;
         /// Period, torque limits and fault policy.
         #constant
         pub const SETTINGS: ::gramforge_runtime::Settings<f64, #n> = #settings;
