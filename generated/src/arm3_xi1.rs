@@ -9,13 +9,13 @@
 ///
 /// One passivity torque: 31 multiplications, 15 additions, 2 sine-cosine pairs.
 ///
-/// The exact model costs 47 multiplications, 32 additions, 2 sine-cosine pairs: reducing pays here: the reduced one saves 33 of 79 operations.
+/// The exact model costs 47 multiplications, 32 additions, 2 sine-cosine pairs. The reduction pays: it saves 33 of 79 operations.
 ///
 /// Certified torque error by joint: at most (0.6546, 12.33, 0.1951) of a peak torque of (0.9432, 42.79, 10.99), that is 69.4 % in the worst joint. It holds for speeds up to (0.5626, 0.3376, 0.3751) and accelerations up to (0.3465, 0.2079, 0.2310). The peak torque is the largest that a search found within them, so the true one is no smaller.
 ///
 /// Torque error that the law meets by joint, its feedback included: at most (77.84, 67.54, 20.40) inside the domain, for speeds up to (8.067, 5.238, 8.917), reference speeds up to (4.315, 2.788, 4.646) and reference accelerations up to (30.37, 19.81, 34.40).
 ///
-/// Domain of the bounds: |q − q_d(t)| ≤ (0.2, 0.2, 0.2) around the desired trajectory. They are certified, rounding in f64 included; coefficients that are not simplified are exact but for rounding, which is in the torque error, and count as zero.
+/// Domain of the bounds: |q − q_d(t)| ≤ (0.2, 0.2, 0.2) around the desired trajectory. The bounds are certified and include rounding in f64. Coefficients that are not simplified are exact: their bounds are zero, and their rounding is part of the torque error.
 #[allow(dead_code)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Arm3Xi1;

@@ -70,20 +70,20 @@ impl ToleranceRequest<'_> {
 pub fn why_exact(arm: &Arm, lagrangian: &Lagrangian, peak: Option<&[f64]>, fraction: f64) -> String {
     let neither = |sparse: String| {
         format!(
-            "{sparse}, and no simpler arm's recursion that was found within the tolerance is cheaper than the exact one"
+            "{sparse}, and no recursion of a simplified arm that was found within the tolerance is cheaper than the exact one"
         )
     };
     let still = arm.joints.iter().zip(peak.unwrap_or_default()).find(|(_, peak)| **peak <= 0.0);
     let why = if let Some((joint, _)) = still {
-        format!("the exact model takes no torque of {}, of which there is no part to allow", joint.name)
+        format!("The exact model takes no torque of {}, so no part of it can be allowed", joint.name)
     } else if lagrangian.terms() > LONG {
         let terms = lagrangian.terms();
-        neither(format!("an expansion of {terms} terms is too long for a search of sparse models"))
+        neither(format!("An expansion of {terms} terms is too long for a search of sparse models"))
     } else if BEYOND * fraction < sparse::STRICTEST {
         let least = 100.0 * sparse::STRICTEST / BEYOND;
-        neither(format!("no sparse model is sought for tolerances below {least:.2} %"))
+        neither(format!("No sparse model is sought for tolerances below {least:.2} %"))
     } else {
-        "no reduced model that was found within the tolerance is cheaper than the exact one".to_string()
+        "No reduced model that was found within the tolerance is cheaper than the exact one".to_string()
     };
     why + ", so this is the exact model."
 }

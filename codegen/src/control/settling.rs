@@ -1,4 +1,4 @@
-//! How long the joints take together: the coupled loop D ṡ = −K s + Pqq q_e, q̇_e = −P12 q_e + s with D held still.
+//! How long the joints take together: the coupled loop D ṡ = −K s + Pqq q_e, q̇_e = −P12 q_e + s with a constant D.
 
 use super::gains::Gains;
 use super::search::{GainCandidate, Scene, Target};
@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::motion::Motion;
 use crate::numerics::linalg::{inverse, product};
 
-/// Positions of the motion at which D is held still.
+/// Positions of the motion from which D is taken.
 const POSITIONS: u32 = 5;
 /// What counts as settled, relative to the largest initial error.
 const SETTLED: f64 = 0.05;

@@ -39,9 +39,9 @@ pub(super) fn model(module: &Module) -> Vec<String> {
         let (name, count) = (module.name, kept.len());
         lines.push(if let Some(simplified_arm) = module.model.reduced.simplified_arm() {
             format!(
-                " Reduced model of `{name}`, {n} joints, in {} form: the exact one of an arm that need not be a real one, whose \
-                 base parameters (inertia gathered on as few links as possible) are those of this one fitted anew, without \
-                 {} (mx: mass times x of its centre; Σ: ∫ x xᵀ dm).",
+                " Reduced model of `{name}`, {n} joints, in {} form: the exact model of an arm with fewer base parameters \
+                 (inertia gathered on as few links as possible). It lacks {}; the others are fitted to this arm. No real arm \
+                 need have them. (mx: mass times x of its centre; Σ: ∫ x xᵀ dm.)",
                 module.model.form.name(),
                 simplified_arm.lost()
             )
@@ -79,7 +79,7 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     lines.push(if module.model.reduced.is_exact() {
         format!(" Verdict: {}", module.verdict)
     } else {
-        format!(" The exact model costs {}: {}", cost(&exact), module.verdict)
+        format!(" The exact model costs {}. {}", cost(&exact), module.verdict)
     });
     lines.push(String::new());
     if let Some(known) = module.torque {
@@ -88,28 +88,28 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     }
     if !module.model.reduced.is_exact() {
         lines.push(format!(
-            " Domain of the bounds: {}. They are certified, rounding in f64 included; {}{}.",
+            " Domain of the bounds: {}. The bounds are certified and include rounding in f64. {}{}",
             domain(module.domain),
             not_simplified(module),
-            if sines.rounds() { "" } else { ", but for the error of the sines, which is in every bound" }
+            if sines.rounds() { "" } else { " The error of the sines is part of every bound." }
         ));
     } else if !sines.rounds() && !moved(module) {
         lines.push(format!(
-            " No term is left out, so the bounds are those of the sines' error{}. Domain of the bounds: {}.",
-            if module.turned { " and of rounding the arm's rotations" } else { "" },
+            " No term is left out. The bounds come from the error of the sines{}. Domain of the bounds: {}.",
+            if module.turned { " and from rounding the arm's rotations" } else { "" },
             domain(module.domain)
         ));
     } else if moved(module) {
-        lines.push(format!(" Domain of the bounds: {}; {}.", domain(module.domain), not_simplified(module)));
+        lines.push(format!(" Domain of the bounds: {}. {}", domain(module.domain), not_simplified(module)));
     } else if module.turned {
         lines.push(format!(
-            " No term is left out, so the bounds are those of rounding the arm's rotations. Domain of the bounds: {}. Rounding \
-             in f64 is in the torque error alone.",
+            " No term is left out. The bounds come from rounding the arm's rotations. Domain of the bounds: {}. Rounding in f64 \
+             is part of the torque error.",
             domain(module.domain)
         ));
     } else {
         lines.push(
-            " No term is left out, so the bounds on D, h and G are zero; rounding in f64 is in the torque error alone."
+            " No term is left out, so the bounds on D, h and G are zero. Rounding in f64 is part of the torque error."
                 .to_string(),
         );
     }
@@ -144,10 +144,10 @@ fn moved(module: &Module) -> bool {
 /// What is left out of coefficients that are not simplified.
 fn not_simplified(module: &Module) -> &'static str {
     if moved(module) {
-        "coefficients that are not simplified are those of the arm as specified but for rounding, which is in the torque \
-         error, and their bounds hold what the uncertain numbers move them by"
+        "Coefficients that are not simplified are those of the arm as specified. Their bounds hold what the uncertain numbers \
+         change. Their rounding is part of the torque error."
     } else {
-        "coefficients that are not simplified are exact but for rounding, which is in the torque error, and count as zero"
+        "Coefficients that are not simplified are exact: their bounds are zero, and their rounding is part of the torque error."
     }
 }
 
@@ -158,9 +158,9 @@ fn uncertain(module: &Module) -> Vec<String> {
         return Vec::new();
     }
     let follows = if module.regressor.is_some() {
-        " Uncertain numbers; the bounds are those of the model that has learnt them, whatever they are:"
+        " Uncertain numbers. The bounds are those of the model that has learnt them:"
     } else {
-        " Uncertain numbers; the bounds hold for all of them:"
+        " Uncertain numbers. The bounds hold for all of their values:"
     };
     let mut lines = vec![String::new(), follows.to_string(), String::new()];
     lines.extend(uncertainty.parameters.iter().map(|p| {
@@ -253,7 +253,7 @@ pub(crate) fn met(met: Option<&Met>, controlled: bool) -> String {
             list(&rates.reference_acceleration)
         ),
         None if controlled => {
-            "Torque error that the law meets, its feedback included: not available, for nothing holds the \
+            "Torque error that the law meets, its feedback included: not available, because no level of V bounds the \
              errors."
                 .to_string()
         }

@@ -54,7 +54,7 @@ pub struct Module<'a> {
     pub torque: Option<&'a Torque>,
     /// The same at the rates that the law meets.
     pub met: Option<&'a Met>,
-    /// Whether reducing pays, in one sentence.
+    /// Whether the reduction pays, in one sentence.
     pub verdict: &'a str,
     /// Where the bounds hold.
     pub domain: &'a Domain,

@@ -1,11 +1,11 @@
-//! Whether reducing pays.
+//! Whether the reduction pays.
 
 use super::Generation;
 use crate::choose::why_exact;
 use crate::graph::Operations;
 
 impl Generation {
-    /// Whether reducing pays, in one sentence; of an exact model, why it is one.
+    /// Whether the reduction pays, in one sentence; of an exact model, why it is one.
     ///
     /// Costs are compared as the search for a model compares them, by [`Operations::cost`].
     pub fn verdict(&self) -> String {
@@ -13,11 +13,11 @@ impl Generation {
             let peak = self.torque().map(|torque| torque.peak.as_slice());
             return match self.spec().model.tolerance() {
                 Some(fraction) => why_exact(self.arm(), self.lagrangian(), peak, fraction),
-                None => "this is the exact model.".to_string(),
+                None => "This is the exact model.".to_string(),
             };
         }
         if !self.reduced().simplified.contains(&true) {
-            return "no coefficient has more functions than are kept, so nothing was simplified.".to_string();
+            return "No coefficient has more functions than are kept, so nothing was simplified.".to_string();
         }
         compared(&self.code().operations(), &self.exact_code().operations())
     }
@@ -27,17 +27,14 @@ fn compared(reduced: &Operations, exact: &Operations) -> String {
     let (mine, theirs) = (reduced.arithmetic(), exact.arithmetic());
     if reduced.cost() >= exact.cost() {
         format!(
-            "the exact one is not dearer ({theirs} operations and {} sine-cosine pairs against {mine} and {}), so reducing \
-             does not pay here.",
+            "The exact model is cheaper or costs the same ({theirs} operations and {} sine-cosine pairs against {mine} and \
+             {}). The reduction does not pay.",
             exact.trig_pairs, reduced.trig_pairs
         )
     } else if mine < theirs {
-        format!("reducing pays here: the reduced one saves {} of {theirs} operations.", theirs - mine)
+        format!("The reduction pays: it saves {} of {theirs} operations.", theirs - mine)
     } else {
         let fewer = exact.trig_pairs.saturating_sub(reduced.trig_pairs);
-        format!(
-            "reducing pays here: the reduced one saves {fewer} of {} sine-cosine pairs.",
-            exact.trig_pairs
-        )
+        format!("The reduction pays: it saves {fewer} of {} sine-cosine pairs.", exact.trig_pairs)
     }
 }

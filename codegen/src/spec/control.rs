@@ -71,7 +71,7 @@ pub struct DesignSpec {
     /// Time in which position errors fall to 1/20 of the largest initial one, s.
     ///
     /// From rest, whatever their signs, under the exact model and outside the robust term: each joint by itself with the
-    /// largest inertia that it can have in the domain, and all together with D(q) held still along the motion.
+    /// largest inertia that it can have in the domain, and all together with D(q) constant at its values on the motion.
     pub convergence_time: f64,
     /// What |q_e| must never leave, rad or m. Default: the tube of the measure, which it must not exceed.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -359,10 +359,10 @@ fn the_choice_does_not_depend_on_the_number_of_threads() {
 }
 
 #[test]
-fn the_module_states_the_torque_error_and_whether_reducing_pays() {
+fn the_module_states_the_torque_error_and_whether_the_reduction_pays() {
     let text = within(&workspace(), 0.05).module().unwrap();
     assert!(text.contains("Certified torque error by joint: at most ("));
-    assert!(text.contains("reducing pays here: the reduced one saves "));
+    assert!(text.contains("The reduction pays: it saves "));
 }
 
 #[test]

@@ -107,7 +107,7 @@ fn guarantee(promised: &GuaranteeView) -> Vec<String> {
         ),
         format!("smallest sufficient tube: {}", promised.tube_needed.map_or("none found".to_string(), list)),
         format!(
-            "longest period: {} s, at every D of the domain held still; lambda_min(D) >= {} ({kind})",
+            "longest period: {} s, at every D of the domain, each D constant; lambda_min(D) >= {} ({kind})",
             printed_down(promised.period_max),
             printed_down(promised.inertia_min)
         ),

@@ -42,8 +42,12 @@ fn the_verdict_follows_from_the_operations() {
     // Reduced and cheaper, reduced and dearer, exact, and exact because nothing cheaper keeps within the tolerance.
     let strict = |spec: &mut Value| spec["model"] = json!({ "tolerance": { "torque": 1e-6 } });
     let cases: [Judged; 4] = [
-        ("arm3_xi1", |_| {}, "reducing pays here"),
-        ("arm3_xi2", |spec| spec["model"] = json!({ "shared": { "functions": 4 } }), "is not dearer"),
+        ("arm3_xi1", |_| {}, "The reduction pays"),
+        (
+            "arm3_xi2",
+            |spec| spec["model"] = json!({ "shared": { "functions": 4 } }),
+            "is cheaper or costs the same",
+        ),
         ("arm3_exact", |_| {}, "this is the exact model."),
         ("arm3_xi2", strict, "no sparse model is sought for tolerances below 0.31 %"),
     ];
@@ -61,7 +65,7 @@ fn the_verdict_follows_from_the_operations() {
             let count = |key: &str| view["operations"][kind][key].as_u64().expect("a count");
             count("mul") + count("add") + 12 * count("trig_pairs")
         };
-        assert_eq!(verdict.contains("reducing pays"), cost("reduced") < cost("exact"), "{verdict}");
+        assert_eq!(verdict.contains("reduction pays"), cost("reduced") < cost("exact"), "{verdict}");
         let error = view["torque_error"].as_array().expect("a list");
         assert_eq!((error.len(), view["peak_torque"].as_array().map(Vec::len)), (3, Some(3)));
         // The same sentences wherever it is spoken of.
