@@ -368,7 +368,7 @@ fn the_module_states_the_torque_error_and_whether_the_reduction_pays() {
 #[test]
 fn an_exact_model_says_why_it_is_one() {
     let strict = within(&workspace(), 1e-5);
-    assert!(strict.verdict().starts_with("no sparse model is sought for tolerances below 0.31 %"));
+    assert!(strict.verdict().starts_with("No sparse model is sought for tolerances below 0.31 %"));
     assert!(strict.module().unwrap().contains(&strict.verdict()));
     let (arm, lagrangian) = (strict.arm(), strict.lagrangian());
     assert!(why_exact(arm, lagrangian, Some(&[1.0; 3]), 0.1).contains("is cheaper than the exact one"));

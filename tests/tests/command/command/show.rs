@@ -49,7 +49,7 @@ fn the_verdict_follows_from_the_operations() {
             "is cheaper or costs the same",
         ),
         ("arm3_exact", |_| {}, "this is the exact model."),
-        ("arm3_xi2", strict, "no sparse model is sought for tolerances below 0.31 %"),
+        ("arm3_xi2", strict, "No sparse model is sought for tolerances below 0.31 %"),
     ];
     let folder = tempfile::tempdir().expect("a folder");
     for (index, (name, edit, words)) in cases.into_iter().enumerate() {
