@@ -309,7 +309,7 @@ mod tests {
                     run += estimate.near(corners.apart[i]).count();
                 }
             }
-            assert!(run < 100 * n << (n - 1), "{name}: {run} corners are no fewer");
+            assert!(run < (100 * n) << (n - 1), "{name}: {run} corners are no fewer");
         }
     }
 

@@ -61,6 +61,13 @@ pub(super) struct ClosedLoop<'a> {
 }
 
 impl ClosedLoop<'_> {
+    /// The envelope below the level `v` of V from the errors `start`, whether or not V stays below it.
+    pub(super) fn envelope_at(&self, v: f64, start: &[f64]) -> Result<Envelope, Error> {
+        let (position_error, velocity_error) = self.errors(v, start)?;
+        let speed = self.speed.iter().zip(&velocity_error).map(|(d, e)| d + e).collect();
+        Ok(Envelope { v_max: v, level: v, position_error, velocity_error, speed })
+    }
+
     /// Largest |q_e| and |q̇_e| below the level `v` from the errors `start`.
     ///
     /// |s_i| ≤ √(2V (D⁻¹)_ii) and |q_e,i| ≤ √(2V (Pqq⁻¹)_ii) by (12); q̇_e = −P12 q_e + s is a stable filter, so

@@ -76,14 +76,7 @@ pub(super) fn tune(stage: &Stage, request: &GainRequest) -> Result<Tuning, Error
         }
     }
     if let Some(nearest) = nearest.as_ref().filter(|nearest| short_of_torque(nearest)) {
-        let asks = |reason: &&String| reason.starts_with("the initial errors");
-        let reasons: Vec<&str> =
-            nearest.judged.guarantee.reasons.iter().filter(asks).map(String::as_str).collect();
-        faults.push(
-            "control.design",
-            format!("cannot be met: with the gains that come nearest {}", reasons.join("; ")),
-            "take a smaller initial error, allow more time to converge, or raise the torque limits if the drives bear it",
-        );
+        too_weak(nearest, &mut faults);
         return Err(faults.into_error());
     }
     let shorter = match request.period {
@@ -105,18 +98,7 @@ pub(super) fn tune(stage: &Stage, request: &GainRequest) -> Result<Tuning, Error
         return Err(faults.into_error());
     }
     let Some(nearest) = nearest else {
-        let period = periods.last().copied().unwrap_or(f64::NAN);
-        let least = scene
-            .shortest_time(period)
-            .map_or("far more".to_string(), |time| format!("at least {time:.3} s"));
-        faults.push(
-            "control.design.convergence_time",
-            format!(
-                "{} s is too short: with a period of {period} s it takes {least}",
-                request.convergence_time
-            ),
-            "allow more time, or shorten the period",
-        );
+        too_fast(&scene, request, periods.last().copied().unwrap_or(f64::NAN), &mut faults);
         return Err(faults.into_error());
     };
     let own_width = domain.width();
@@ -127,6 +109,30 @@ pub(super) fn tune(stage: &Stage, request: &GainRequest) -> Result<Tuning, Error
 /// Whether it is the torque of the first step alone that a candidate fails by.
 fn short_of_torque(candidate: &GainCandidate) -> bool {
     candidate.position_bound <= 1.0 && candidate.judged.first_step >= 1.0
+}
+
+/// The fault of drives that are too weak for the first step of the gains that come nearest.
+fn too_weak(nearest: &GainCandidate, faults: &mut Diagnostics) {
+    let asks = |reason: &&String| reason.starts_with("the initial errors");
+    let reasons: Vec<&str> =
+        nearest.judged.guarantee.reasons.iter().filter(asks).map(String::as_str).collect();
+    faults.push(
+        "control.design",
+        format!("cannot be met: with the gains that come nearest {}", reasons.join("; ")),
+        "take a smaller initial error, allow more time to converge, or raise the torque limits if the drives bear it",
+    );
+}
+
+/// The fault of a convergence time that no gains reach with `period`, s.
+fn too_fast(scene: &Scene, request: &GainRequest, period: f64, faults: &mut Diagnostics) {
+    let least = scene.shortest_time(period);
+    let least = least.map_or("far more".to_string(), |time| format!("at least {time:.3} s"));
+    let asked = request.convergence_time;
+    faults.push(
+        "control.design.convergence_time",
+        format!("{asked} s is too short: with a period of {period} s it takes {least}"),
+        "allow more time, or shorten the period",
+    );
 }
 
 /// The fault of a tube that errors leave under the best gains.

@@ -1,7 +1,7 @@
 //! What is promised of the closed loop, and why not where nothing is.
 
 use super::adaptation::{Adaptation, Learning, regression};
-use super::error_envelope::{ClosedLoop, Envelope};
+use super::error_envelope::{ClosedLoop, Envelope, Load};
 use super::feedforward::Feedforward;
 use super::form::{Fastest, Form, InertiaBounds, fastest, inertia_bounds, initial_level, total};
 use super::inertia::Inertia;
@@ -86,6 +86,21 @@ pub(super) struct Parts<'a> {
 }
 
 impl Parts<'_> {
+    /// What is said of a sign function whose chatter may raise V.
+    fn chatter(&self, closed_loop: &ClosedLoop, load: &Load, envelope: &Envelope) -> Option<String> {
+        let chatter = closed_loop.ultimate_bound(load, true) + closed_loop.parameter_energy();
+        let raises =
+            self.problem.control.law.is_robust() && self.layer().is_none() && chatter > envelope.level;
+        raises.then(|| {
+            format!(
+                "the sign function, held for {} s, may raise V from {} J to {} J: take a boundary layer or a shorter period",
+                self.tuning.period,
+                number::short(envelope.level),
+                number::short(chatter)
+            )
+        })
+    }
+
     pub(super) fn judge(self) -> Result<Judgement, Error> {
         let DesignProblem { arm, domain, motion, bounds, control, lagrangian, uncertainty, .. } =
             *self.problem;
@@ -117,9 +132,7 @@ impl Parts<'_> {
                     "no level of V is found that the law keeps it below: {}",
                     more(control.law)
                 ));
-                let (position_error, velocity_error) = closed_loop.errors(v_max, position)?;
-                let speed = closed_loop.speed.iter().zip(&velocity_error).map(|(d, e)| d + e).collect();
-                Envelope { v_max, level: v_max, position_error, velocity_error, speed }
+                closed_loop.envelope_at(v_max, position)?
             }
         };
         let delta_c = bounds.coriolis(&envelope.speed);
@@ -128,7 +141,6 @@ impl Parts<'_> {
 
         let load = closed_loop.load(&envelope.position_error, &envelope.velocity_error, &delta_c);
         let longest = self.longest_period(&inertia, over.clone(), &delta_c1, &closed_loop, &load.gain);
-        let period_max = longest.period;
         let final_error = if self.sketch {
             envelope.position_error.clone()
         } else {
@@ -138,15 +150,7 @@ impl Parts<'_> {
         reasons.extend(self.period_reasons(facts.certified, &longest));
         let (first_step, short) = self.drives(&closed_loop, &delta_c, &delta_c1);
         reasons.extend(short);
-        let chatter = closed_loop.ultimate_bound(&load, true) + closed_loop.parameter_energy();
-        if control.law.is_robust() && self.layer().is_none() && chatter > envelope.level {
-            reasons.push(format!(
-                "the sign function, held for {} s, may raise V from {} J to {} J: take a boundary layer or a shorter period",
-                self.tuning.period,
-                number::short(envelope.level),
-                number::short(chatter)
-            ));
-        }
+        reasons.extend(self.chatter(&closed_loop, &load, &envelope));
         let leaves = outside(domain, motion, arm, &envelope.position_error);
         let wanted = !self.sketch && (self.problem.seek_tube || control.require_guarantee);
         let tube_needed = if !facts.certified || !wanted {
@@ -170,7 +174,7 @@ impl Parts<'_> {
         let guarantee = Guarantee {
             holds: reasons.is_empty(),
             reasons,
-            period_max,
+            period_max: longest.period,
             period_certified: longest.certified,
             final_error,
             initial_error_max,

@@ -5,7 +5,7 @@ use crate::bounds::{Met, Torque, percent_up, printed_down, printed_up};
 use crate::control::Guarantee;
 use crate::domain::Domain;
 use crate::lagrangian::{Coordinates, Lagrangian};
-use crate::reduction::Reduced;
+use crate::reduction::{Kind as ModelKind, Reduced};
 use crate::text::escaped;
 use crate::trig::{Kind, Trig};
 
@@ -25,34 +25,9 @@ pub(super) fn header(module: &Module, size: usize) -> String {
 pub(super) fn model(module: &Module) -> Vec<String> {
     let operations = module.model.code.operations();
     let exact = module.exact_code.operations();
-    let n = module.arm.dof();
-    let p = module.lagrangian.functions.len();
     let mut lines = Vec::new();
     let kept = functions(module.lagrangian, &module.model.reduced);
-    if module.model.reduced.is_exact() {
-        lines.push(format!(
-            " Exact model of `{}`, {n} joints, in {} form.",
-            module.name,
-            module.model.form.name()
-        ));
-    } else {
-        let (name, count) = (module.name, kept.len());
-        lines.push(if let Some(simplified_arm) = module.model.reduced.simplified_arm() {
-            format!(
-                " Reduced model of `{name}`, {n} joints, in {} form: the exact model of an arm with fewer base parameters \
-                 (inertia gathered on as few links as possible). It lacks {}; the others are fitted to this arm. No real arm \
-                 need have them. (mx: mass times x of its centre; Σ: ∫ x xᵀ dm.)",
-                module.model.form.name(),
-                simplified_arm.lost()
-            )
-        } else if module.model.reduced.sparse().is_some() {
-            format!(
-                " Reduced model of `{name}`, {n} joints: {count} functions, products counted, where the exact model has {p} ψ."
-            )
-        } else {
-            format!(" Reduced model of `{name}`, {n} joints: {count} of {p} ψ functions.")
-        });
-    }
+    lines.push(kind(module, kept.len()));
     lines.push(String::new());
     if let Some(linkage) = &module.arm.linkage {
         let equations = linkage.equations(module.arm).join(", ");
@@ -86,35 +61,55 @@ pub(super) fn model(module: &Module) -> Vec<String> {
         lines.extend([format!(" {} {}", torque(known), rates(known)), String::new()]);
         lines.extend([format!(" {}", met(module.met, module.design.is_some())), String::new()]);
     }
-    if !module.model.reduced.is_exact() {
-        lines.push(format!(
-            " Domain of the bounds: {}. The bounds are certified and include rounding in f64. {}{}",
-            domain(module.domain),
-            not_simplified(module),
-            if sines.rounds() { "" } else { " The error of the sines is part of every bound." }
-        ));
-    } else if !sines.rounds() && !moved(module) {
-        lines.push(format!(
-            " No term is left out. The bounds come from the error of the sines{}. Domain of the bounds: {}.",
-            if module.turned { " and from rounding the arm's rotations" } else { "" },
-            domain(module.domain)
-        ));
-    } else if moved(module) {
-        lines.push(format!(" Domain of the bounds: {}. {}", domain(module.domain), not_simplified(module)));
-    } else if module.turned {
-        lines.push(format!(
-            " No term is left out. The bounds come from rounding the arm's rotations. Domain of the bounds: {}. Rounding in f64 \
-             is part of the torque error.",
-            domain(module.domain)
-        ));
-    } else {
-        lines.push(
-            " No term is left out, so the bounds on D, h and G are zero. Rounding in f64 is part of the torque error."
-                .to_string(),
-        );
-    }
+    lines.push(left_out(module));
     lines.extend(uncertain(module));
     lines
+}
+
+/// Which kind of model it is, with `count` kept functions.
+fn kind(module: &Module, count: usize) -> String {
+    let (n, p, name) = (module.arm.dof(), module.lagrangian.functions.len(), module.name);
+    let (reduced, form) = (&module.model.reduced, module.model.form.name());
+    match &reduced.kind {
+        ModelKind::Exact => format!(" Exact model of `{name}`, {n} joints, in {form} form."),
+        ModelKind::SimplifiedArm(arm) => format!(
+            " Reduced model of `{name}`, {n} joints, in {form} form: the exact model of an arm with fewer base parameters (inertia \
+             gathered on as few links as possible). It lacks {}; the others are fitted to this arm. No real arm need have them. \
+             (mx: mass times x of its centre; Σ: ∫ x xᵀ dm.)",
+            arm.lost()
+        ),
+        ModelKind::Sparse(_) => format!(
+            " Reduced model of `{name}`, {n} joints: {count} functions, products counted, where the exact model has {p} ψ."
+        ),
+        ModelKind::Expanded => format!(" Reduced model of `{name}`, {n} joints: {count} of {p} ψ functions."),
+    }
+}
+
+/// What the bounds come from, and where they hold.
+fn left_out(module: &Module) -> String {
+    let (sines, domain) = (&module.model.code.sines, domain(module.domain));
+    let reduced = !module.model.reduced.is_exact();
+    if reduced {
+        format!(
+            " Domain of the bounds: {domain}. The bounds are certified and include rounding in f64. {}{}",
+            not_simplified(module),
+            if sines.rounds() { "" } else { " The error of the sines is part of every bound." }
+        )
+    } else if !sines.rounds() && !moved(module) {
+        format!(
+            " No term is left out. The bounds come from the error of the sines{}. Domain of the bounds: {domain}.",
+            if module.turned { " and from rounding the arm's rotations" } else { "" }
+        )
+    } else if moved(module) {
+        format!(" Domain of the bounds: {domain}. {}", not_simplified(module))
+    } else if module.turned {
+        format!(
+            " No term is left out. The bounds come from rounding the arm's rotations. Domain of the bounds: {domain}. Rounding in \
+             f64 is part of the torque error."
+        )
+    } else {
+        " No term is left out, so the bounds on D, h and G are zero. Rounding in f64 is part of the torque error.".to_string()
+    }
 }
 
 /// What names that end in `_abs` mean.

@@ -180,7 +180,7 @@ mod tests {
                     Some((psi, -0.5 * slope * (1.0 + l as f64)))
                 })
                 .collect();
-            wanted.sort_by(|a, b| a.0.cmp(&b.0));
+            wanted.sort_by_key(|term| term.0);
             let found = table.derivative(&terms, joint, -0.5);
             let found: Vec<(Function, f64)> =
                 found.into_iter().map(|(l, k)| (table.functions[l], k)).collect();

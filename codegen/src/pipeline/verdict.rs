@@ -27,8 +27,8 @@ fn compared(reduced: &Operations, exact: &Operations) -> String {
     let (mine, theirs) = (reduced.arithmetic(), exact.arithmetic());
     if reduced.cost() >= exact.cost() {
         format!(
-            "The exact model is cheaper or costs the same ({theirs} operations and {} sine-cosine pairs against {mine} and \
-             {}). The reduction does not pay.",
+            "The reduction does not pay: the exact model costs no more ({theirs} operations and {} sine-cosine pairs against \
+             {mine} and {}).",
             exact.trig_pairs, reduced.trig_pairs
         )
     } else if mine < theirs {

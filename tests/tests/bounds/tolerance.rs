@@ -373,7 +373,7 @@ fn an_exact_model_says_why_it_is_one() {
     let (arm, lagrangian) = (strict.arm(), strict.lagrangian());
     assert!(why_exact(arm, lagrangian, Some(&[1.0; 3]), 0.1).contains("is cheaper than the exact one"));
     assert!(why_exact(arm, lagrangian, Some(&[1.0, 0.0, 1.0]), 0.1).contains("no torque of joint2"));
-    assert!(made(workspace(), ModelSpec::Exact).verdict().starts_with("this is the exact model"));
+    assert!(made(workspace(), ModelSpec::Exact).verdict().starts_with("This is the exact model"));
 }
 
 /// A tolerance is a part of the peak torque: were that too large, so were the error. The arm must reach it in a state

@@ -74,12 +74,18 @@ fn generated_regressions_are_their_graphs_and_give_the_models_torque() {
 fn modules_name_what_is_uncertain() {
     let text = |name: &str| generation(name).module().unwrap();
     let line = "- `links[0].mass`, joint 3: 2.8 to 4.2, 3.5 as specified";
-    for (name, words) in [("arm3_adaptive", "has learnt them"), ("arm3_robust", "hold for all of them")] {
+    for (name, words) in
+        [("arm3_adaptive", "has learnt them"), ("arm3_robust", "hold for all of their values")]
+    {
         let text = text(name);
         assert!(text.contains(line) && text.contains(words), "{name}");
     }
-    assert!(text("arm3_robust").contains("are those of the arm as specified but for rounding"));
-    assert!(text("arm3_adaptive").contains("are exact but for rounding"));
+    assert!(
+        text("arm3_robust").contains(
+            "are those of the arm as specified. Their bounds hold what the uncertain numbers change."
+        )
+    );
+    assert!(text("arm3_adaptive").contains("are exact: their bounds are zero"));
     assert!(!text("arm3_xi2").contains("ncertain"));
     // The bounds of a model that does not follow the load hold for it, those of one that does are smaller.
     let (robust, adaptive) = (arm3_robust::BOUNDS, arm3_adaptive::BOUNDS);

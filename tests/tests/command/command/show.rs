@@ -46,9 +46,9 @@ fn the_verdict_follows_from_the_operations() {
         (
             "arm3_xi2",
             |spec| spec["model"] = json!({ "shared": { "functions": 4 } }),
-            "is cheaper or costs the same",
+            "The reduction does not pay",
         ),
-        ("arm3_exact", |_| {}, "this is the exact model."),
+        ("arm3_exact", |_| {}, "This is the exact model."),
         ("arm3_xi2", strict, "No sparse model is sought for tolerances below 0.31 %"),
     ];
     let folder = tempfile::tempdir().expect("a folder");
