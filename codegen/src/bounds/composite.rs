@@ -4,7 +4,7 @@
 use crate::arm::{Arm, Body, JointKind, Transform};
 use crate::lagrangian::MAX_JOINTS;
 
-/// How far torques by composite bodies and by the recursion may be apart, as a part of [`sizes`]: some hundred times what
+/// How far torques by composite bodies and by the recursion may be apart, as a part of their sizes: some hundred times what
 /// they round by.
 const APART: f64 = 4e-12;
 

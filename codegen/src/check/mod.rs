@@ -36,7 +36,7 @@ pub enum Extent {
 /// Reads and checks the specification at `path`.
 ///
 /// # Errors
-/// Those of [`read`] and [`checked`].
+/// Those of [`read`] and [`checked()`].
 pub fn prepare(path: &Path) -> Result<Checked, Error> {
     checked(read(path)?, Extent::Whole)
 }

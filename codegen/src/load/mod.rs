@@ -1,6 +1,6 @@
 //! From a file to a [`Spec`] of the right shape: JSON syntax, then structure against the schema.
 //!
-//! What the values mean is judged later, by [`crate::arm`] and [`crate::check`].
+//! What the values mean is judged later, by the stages `arm` and `check`.
 
 mod hash;
 mod json;
@@ -92,7 +92,7 @@ fn text(path: &Path) -> Result<String, Error> {
 ///
 /// # Errors
 /// [`Error::Input`] with line and column where the text is not JSON, else with every field that is missing,
-/// unknown, repeated, of the wrong type or a text with hidden characters (see [`plain`]).
+/// unknown, repeated, of the wrong type or a text with hidden characters (see [`plain()`]).
 pub fn parse(text: &str, path: &Path) -> Result<Loaded, Error> {
     let Draft { loaded, faults, .. } = drafted(text, path)?;
     match loaded {

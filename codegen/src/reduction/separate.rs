@@ -66,7 +66,7 @@ pub(super) fn union(combinations: &[Combination], simplified: &[bool]) -> Vec<us
     out
 }
 
-/// As [`super::minimax`], each coefficient over the functions that it has itself.
+/// As [`super::minimax()`], each coefficient over the functions that it has itself.
 pub fn minimax_each(lagrangian: &Lagrangian, mut reduced: Reduced, points: &[Vec<f64>]) -> Reduced {
     let simplified: Vec<usize> = (0..reduced.simplified.len()).filter(|&m| reduced.simplified[m]).collect();
     if points.is_empty() || simplified.is_empty() {

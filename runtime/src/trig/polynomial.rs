@@ -39,7 +39,7 @@
 use super::Trig;
 use super::reduction::Reduction;
 
-/// [Cody–Waite reduction and minimax polynomials](self): the fastest that is as good as rounding.
+/// Cody–Waite reduction and minimax polynomials: the fastest that is as good as rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Polynomial;
 

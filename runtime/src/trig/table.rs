@@ -25,7 +25,7 @@
 use super::Trig;
 use super::reduction::Reduction;
 
-/// [`N` pairs (sin 2πk/N, cos 2πk/N)](self), k = 0 … N − 1; N a power of two from 8 to 4096.
+/// `N` pairs (sin 2πk/N, cos 2πk/N), k = 0 … N − 1; N a power of two from 8 to 4096.
 ///
 /// ```
 /// use gramforge_runtime::trig::{Table, Trig};
