@@ -211,7 +211,7 @@ fn an_exact_model_in_recursive_form_is_given_those_bounds() {
     assert!(made.certificates().iter().any(|certificate| certificate.bound > 0.0));
     let text = made.module().unwrap();
     assert!(
-        text.contains("pub static SINES") && text.contains("The bounds come from the error of the sines.")
+        text.contains("pub static SINES") && text.contains("The bounds come from the error of the sines")
     );
 }
 
