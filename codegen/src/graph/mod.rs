@@ -5,6 +5,7 @@ mod build;
 mod count;
 mod factor;
 mod interpret;
+mod inverse;
 mod node;
 mod slopes;
 #[cfg(test)]
