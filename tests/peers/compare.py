@@ -1,9 +1,7 @@
 #!/usr/bin/env python3
 """Measures the exact generated code beside its peers; README.md in this folder says what and how.
 
-    python3 tests/peers/compare.py [ARM...] [--skip PROGRAM...] [--gramforge PATH] [--operations]
-
-ARM is a known arm or the specification file of any other.
+    python3 tests/peers/compare.py [ARM...] [--skip PROGRAM...] [--gramforge PATH]
 
 Everything it makes goes under target/peers/: comparison.md, comparison.json and what they were made with.
 """
@@ -11,14 +9,13 @@ Everything it makes goes under target/peers/: comparison.md, comparison.json and
 import argparse
 import json
 import os
-import re
 import resource
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
-from arms import KNOWN, REDUCED, ROOT, STATES, Arm, reduced_specification, sources
+from arms import ARMS, REDUCED, ROOT, STATES, Arm, reduced_specification, specification
 from measure import Program, deviation, nanoseconds, run
 from table import INVERSE, markdown
 
@@ -28,20 +25,10 @@ PYTHON = BUILD / "venv/bin/python"
 VERSIONS = {"pin": "4.1.0", "casadi": "3.8.2", "mujoco": "4.0.0"}
 AGREEMENT = 1e-9
 
-# One set of instructions on every machine, or figures do not repeat; valgrind knows these and no AVX-512.
-PROCESSOR = "x86-64-v3"
-NEEDED = ["avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "abm", "movbe"]
+# Valgrind knows no AVX-512; without it the machine's own instructions are measured.
+FLAGS = Path("/proc/cpuinfo").read_text()
+PROCESSOR = "x86-64-v3" if "avx512f" in FLAGS else "native"
 OPTIMISED = ["-O3", f"-march={PROCESSOR}", "-DNDEBUG"]
-
-
-def check_processor(path=Path("/proc/cpuinfo")):
-    """Stops where this processor cannot run what is compiled for the comparison."""
-    flags = set(path.read_text().split()) if path.exists() else set()
-    if missing := [flag for flag in NEEDED if flag not in flags]:
-        raise SystemExit(
-            f"{path} does not list {', '.join(missing)}: this processor cannot run code for {PROCESSOR}, and figures for "
-            "another could not be compared. Use Linux on an x86-64 processor with AVX2 (Intel since 2013, AMD since 2015)"
-        )
 
 
 def prepare():
@@ -99,32 +86,7 @@ class Natives:
         return name not in self.missing
 
 
-def described(arms):
-    """Reads every arm with the generator's library; the operations of its inverse dynamics by arm."""
-    folder = BUILD / "joints"
-    folder.mkdir(exist_ok=True)
-    print("reading the arms", flush=True)
-    cargo(["--features", "describe", "--bin", "describe"], BUILD / "modules")
-    done = run([BUILD / "cargo/release/describe", *(arm.specification for arm in arms)])
-    counts = {}
-    for arm, line in zip(arms, done.stdout.splitlines(), strict=True):
-        count = json.loads(line)["inverse_dynamics"]
-        counts[arm.name] = count["mul"] + count["add"]
-        (folder / f"{arm.name}.json").write_text(line)
-    return counts
-
-
-def cargo(arguments, modules):
-    """Builds programs of the folder gramforge."""
-    environment = os.environ | {
-        "GRAMFORGE_MODULES": str(modules),
-        "RUSTFLAGS": f"-C target-cpu={PROCESSOR}",
-        "CARGO_TARGET_DIR": str(BUILD / "cargo"),
-    }
-    run(["cargo", "build", "--release", *arguments], cwd=HERE / "gramforge", env=environment)
-
-
-def generated(arms, gramforge):
+def generated(names, gramforge):
     """Generates every arm's exact module and the reduced ones; the forms of trigonometry that this generator knows, and
     what it said."""
     if gramforge is None:
@@ -132,16 +94,18 @@ def generated(arms, gramforge):
         gramforge = ROOT / "target/release/gramforge"
     folder, made = BUILD / "modules", {}
     folder.mkdir(exist_ok=True)
-    trigs, modules = ["libm"], []
-    kinds = [(arm.name, arm.exact) for arm in arms]
-    for arm in (arm.name for arm in arms if arm.name in REDUCED):
-        for tolerance in REDUCED[arm][2]:
+    trigs = ["libm"]
+    kinds = [(name, name in names, lambda trig, name=name: specification(name, trig)) for name in ARMS]
+    for arm, (_, _, tolerances) in REDUCED.items():
+        for tolerance in tolerances:
             specify = lambda trig, arm=arm, tolerance=tolerance: reduced_specification(arm, tolerance, trig)
-            kinds.append((f"{arm}_within_{tolerance}", specify))
-    for name, specify in kinds:
+            kinds.append((f"{arm}_within_{tolerance}", arm in names, specify))
+    for name, wanted, specify in kinds:
         for trig in ("libm", "polynomial"):
             path = BUILD / f"{name}_{trig}.json"
             path.write_text(json.dumps(specify(trig), indent=2))
+            if not wanted and (folder / f"{name}_{trig}.rs").exists():
+                continue
             command = [gramforge, "generate", path, "--out", folder, "--json"]
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
             done = subprocess.run([str(x) for x in command], capture_output=True, text=True)
@@ -152,19 +116,16 @@ def generated(arms, gramforge):
                 raise SystemExit(done.stderr)
             seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
             made[name, trig] = json.loads(done.stdout)[0] | {"seconds": seconds}
-            modules.append(module(folder / f"{name}_{trig}.rs"))
             if trig not in trigs:
                 trigs.append(trig)
-    listed = "".join(f"    {line}\n" for line in modules)
-    (folder / "arms.rs").write_text(f"arms! {{\n{listed}}}\n")
-    cargo(["--bin", "gramforge-peers"], folder)
+    features = ["--features", "polynomial"] if "polynomial" in trigs else []
+    environment = os.environ | {
+        "GRAMFORGE_MODULES": str(folder),
+        "RUSTFLAGS": f"-C target-cpu={PROCESSOR}",
+        "CARGO_TARGET_DIR": str(BUILD / "cargo"),
+    }
+    run(["cargo", "build", "--release", *features], cwd=HERE / "gramforge", env=environment)
     return trigs, made
-
-
-def module(path):
-    """Name, type and number of joints of a generated module, as gramforge/src/main.rs takes them."""
-    model, joints = re.search(r"impl (?:\w+::)*Model<(?:f64, )?(\d+)> for (\w+)", path.read_text()).group(2, 1)
-    return f"{path.stem} {model} {joints}"
 
 
 def casadi_program(arm, name, maker):

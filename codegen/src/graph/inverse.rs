@@ -86,7 +86,8 @@ mod tests {
         // Written out in products of sines.
         let arm = arm("generated/specs/arm3_exact.json");
         let lagrangian = expand(&arm);
-        for code in [exact(&arm, &lagrangian).1, expanded(&arm, &lagrangian, &reduction::exact(&lagrangian))] {
+        for code in [exact(&arm, &lagrangian).1, expanded(&arm, &lagrangian, &reduction::exact(&lagrangian))]
+        {
             same_torque(&code, &code.inverse_dynamics(), arm.dof());
         }
     }
