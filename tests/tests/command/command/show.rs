@@ -125,7 +125,7 @@ fn numbers_are_for_people() {
     for (name, spec, words) in [
         ("hanging", hanging, "a percentage is not available, since a joint takes no torque."),
         ("arm3_xi2", value("arm3_xi2"), "that is 56.67 % in the worst joint."),
-        ("arm3_exact", value("arm3_exact"), "this is the exact model."),
+        ("arm3_exact", value("arm3_exact"), "This is the exact model."),
         ("arm3_adaptive", value("arm3_adaptive"), " % in the worst joint."),
     ] {
         let path = folder.path().join("arm.json");
