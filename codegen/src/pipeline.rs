@@ -8,12 +8,11 @@ mod generation;
 mod modelled;
 mod proved;
 mod sampled;
+mod setting;
 mod threads;
 mod verdict;
 
 pub use generation::Generation;
-#[cfg(feature = "cli")]
-pub(crate) use modelled::dictionary;
 pub(crate) use proved::keep;
 
 use certified::Certified;

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use super::branch::{halves, maximum};
+use super::entries::DIGITS;
 use super::expansion::Expander;
 use super::polynomial::{Polynomial, Scratch};
 use super::region::{Cell, Region};
 use super::residual::Residual;
-use super::{Bounds, DIGITS, Effort};
+use super::{Bounds, Effort};
 use crate::domain::Domain;
 use crate::lagrangian::{Function, MAX_JOINTS};
 use crate::motion::Motion;

@@ -4,11 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use super::Means;
 use super::expanded::Expanded;
-use super::modelled::Modelled;
+use super::modelled::{Modelled, overflow};
 use super::sampled::Sampled;
-use crate::bounds::{Bounds, Certificate, ModelError, Torque, position_bound, rounded_angles};
+use super::setting::Setting;
+use crate::bounds::{Bounds, Certificate, ModelError, Torque};
 use crate::check::Checked;
-use crate::domain::Domain;
 use crate::error::{Diagnostics, Error};
 use crate::graph::Graph;
 use crate::lagrangian::Lagrangian;
@@ -16,7 +16,6 @@ use crate::model::Model;
 use crate::progress::Stage;
 use crate::reduction::Regression;
 use crate::torque::Regressor;
-use crate::trig::Trig;
 
 /// A model with bounds on its errors.
 ///
@@ -25,12 +24,8 @@ use crate::trig::Trig;
 pub(super) struct Certified {
     /// The specification.
     pub checked: Checked,
-    /// How sines are taken.
-    pub sines: Trig,
-    /// The domain within one turn of each joint, where bounds are sought.
-    pub turn: Domain,
-    /// What rounding the arm's rotations changes at most; `None` where it changes nothing.
-    pub angles: Option<Bounds>,
+    /// Domain, sines and rounded rotations.
+    pub setting: Setting,
     /// The model and what is proved of it.
     pub proved: Proved,
 }
@@ -58,53 +53,34 @@ pub(super) struct Proved {
     pub torque: Option<Torque>,
 }
 
-impl Modelled {
-    /// What bounds follow from.
-    fn error(&self) -> ModelError<'_> {
-        let expanded = &self.sampled.expanded;
-        ModelError {
-            loaded: &expanded.checked.loaded,
-            arm: &expanded.checked.built.arm,
-            uncertainty: &expanded.checked.built.uncertainty,
-            lagrangian: &expanded.lagrangian,
-            reduced: &self.model.reduced,
-            domain: &self.sampled.turn,
-            form: self.model.form,
-            sines: &self.sampled.sines,
-            angles: self.sampled.angles.as_ref(),
-        }
-    }
-}
-
 impl Certified {
     /// # Errors
     /// [`Error::Input`] where the model overflows within the domain, or the rounding of rotations alone takes more than
     /// the tolerance.
     pub fn new(mut modelled: Modelled, means: Means) -> Result<Self, Error> {
-        let error = modelled.error();
+        let Sampled { expanded, setting, scale, .. } = &modelled.sampled;
+        let error = setting.error(&expanded.checked, &expanded.lagrangian, &modelled.model);
         let (certificates, mut bounds) = error.bounds(means.effort, means.progress);
         let stage = Stage::new(means.progress, "torque error", 1);
-        let scale = modelled.sampled.scale.clone();
-        let torque = scale.map(|scale| error.torque(&certificates, &bounds, scale));
+        let torque = scale.clone().map(|scale| error.torque(&certificates, &bounds, scale));
         drop(stage);
-        let mut faults = Diagnostics::of(&modelled.sampled.expanded.checked.loaded.path);
+        let checked = &expanded.checked;
+        let mut faults = Diagnostics::of(&checked.loaded.path);
         let mut warnings = Vec::new();
         if let Some(torque) = &torque {
             error.judge_tolerance(torque, &mut faults, &mut warnings);
         }
-        modelled.warnings.extend(warnings);
-        let checked = &modelled.sampled.expanded.checked;
         if !checked.built.uncertainty.viscous.is_empty() {
             bounds.b.clone_from(&checked.built.uncertainty.viscous);
         }
         let bounds = bounds.rounded_up();
-        if !(modelled.model.reduced.is_finite() && bounds.is_finite()) {
-            let help = "write positions, speeds and the measure in SI units";
-            faults.push("measure", "reaches states at which the model overflows", help);
-        }
         faults.finish(())?;
+        if !bounds.is_finite() {
+            return Err(overflow(checked));
+        }
+        modelled.warnings.extend(warnings);
         let Modelled { sampled, model, exact, regression, regressor, warnings } = modelled;
-        let Sampled { expanded, sines, turn, angles, .. } = sampled;
+        let Sampled { expanded, setting, .. } = sampled;
         let Expanded { checked, lagrangian, .. } = expanded;
         let proved = Proved {
             lagrangian,
@@ -117,38 +93,21 @@ impl Certified {
             bounds,
             torque,
         };
-        Ok(Self { checked, sines, turn, angles, proved })
+        Ok(Self { checked, setting, proved })
     }
 
     /// What an earlier run has proved of the same specification, but for its gains.
     pub fn restored(checked: Checked, mut proved: Proved) -> Self {
-        let built = &checked.built;
-        let sines = Trig::new(&checked.loaded.spec.emit.trig);
-        let turn = checked.domain.within_a_turn(&built.arm, 1.0);
-        let angles = rounded_angles(
-            (&built.arm, &built.uncertainty),
-            (&built.given, &built.uncertain),
-            &position_bound(&turn),
-        );
+        let setting = Setting::new(&checked);
         let learnt = proved.regressor.as_mut().map(|regressor| &mut regressor.code);
         for code in learnt.into_iter().chain([&mut proved.model.code]) {
-            code.sines = sines.clone();
+            code.sines = setting.sines.clone();
         }
-        Self { sines, turn, angles, proved, checked }
+        Self { setting, proved, checked }
     }
 
     /// What bounds follow from.
     pub fn error(&self) -> ModelError<'_> {
-        ModelError {
-            loaded: &self.checked.loaded,
-            arm: &self.checked.built.arm,
-            uncertainty: &self.checked.built.uncertainty,
-            lagrangian: &self.proved.lagrangian,
-            reduced: &self.proved.model.reduced,
-            domain: &self.turn,
-            form: self.proved.model.form,
-            sines: &self.sines,
-            angles: self.angles.as_ref(),
-        }
+        self.setting.error(&self.checked, &self.proved.lagrangian, &self.proved.model)
     }
 }

@@ -28,7 +28,7 @@ impl Designed {
             control,
             arm: &checked.built.arm,
             given: (&checked.built.given, &checked.built.uncertain),
-            angles: certified.angles.as_ref(),
+            angles: certified.setting.angles.as_ref(),
             lagrangian: &proved.lagrangian,
             bounds: &proved.bounds,
             rounding: &rounding,

@@ -1,7 +1,6 @@
 //! Stage 2: the exact model.
 
 use super::Means;
-use super::modelled::check_count;
 use crate::arm::{Arm, Built, indefinite};
 use crate::check::Checked;
 use crate::domain::Domain;
@@ -11,7 +10,8 @@ use crate::lagrangian::{Lagrangian, expand_family};
 use crate::load::Loaded;
 use crate::motion::Motion;
 use crate::progress::Stage;
-use crate::spec::ModelSpec;
+use crate::reduction::Dictionary;
+use crate::spec::{DictionarySpec, ModelSpec, Spec};
 
 /// Pieces of a motion from which on the module's size is told, and what one of one joint adds to its text, bytes.
 const LONG_MOTION: usize = 2_000;
@@ -67,6 +67,25 @@ pub(super) fn with_count(error: Error, loaded: &Loaded) -> Error {
         check_count(&loaded.spec, &expand_family(&arm, &uncertainty), &mut faults);
     }
     faults.into_error()
+}
+
+/// Faults where more functions are asked for than there are.
+fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Diagnostics) {
+    let p = Dictionary::of(spec.dictionary).functions(lagrangian).len();
+    let (field, functions) = match spec.model {
+        ModelSpec::Shared { functions } => ("model.shared.functions", functions),
+        ModelSpec::Separate { functions } => ("model.separate.functions", functions),
+        ModelSpec::Exact | ModelSpec::Tolerance { .. } | ModelSpec::Auto => return,
+    };
+    if functions > p {
+        let whose = match spec.dictionary {
+            DictionarySpec::Harmonic => "exact model",
+            DictionarySpec::Product => "dictionary `product`",
+            DictionarySpec::Union => "dictionary `union`",
+        };
+        let problem = format!("is {functions}, but the {whose} has {p} functions");
+        faults.push(field, problem, format!("write a number from 1 to {p}, or `\"exact\"`"));
+    }
 }
 
 /// What is said of a motion of many pieces: all of them stand in the module.

@@ -2,10 +2,10 @@
 
 use super::sampled::Sampled;
 use super::{Means, angles};
+use crate::check::Checked;
 use crate::choose::{self, ToleranceRequest};
 use crate::error::{Diagnostics, Error};
 use crate::graph::Graph;
-use crate::lagrangian::Lagrangian;
 use crate::model::Model;
 use crate::progress::Stage;
 use crate::reduction::{self, Dictionary, Regression};
@@ -47,7 +47,7 @@ impl Modelled {
         let mut model = requested(&sampled, &exact, means);
         let regression = learns(&checked.loaded.spec).then(|| regression(&sampled, &mut model));
         drop(stage);
-        if model.form == Form::Recursive && !sampled.sines.rounds() {
+        if model.form == Form::Recursive && !sampled.setting.sines.rounds() {
             // What coarse sines do is known of the plain recursion alone.
             model.code = torque::plain(&built.arm);
         }
@@ -55,11 +55,22 @@ impl Modelled {
             .as_ref()
             .map(|regression| torque::regressor(&built.arm, lagrangian, regression, model.form));
         if let Some(regressor) = &mut regressor {
-            regressor.code.sines = sampled.sines.clone();
+            regressor.code.sines = sampled.setting.sines.clone();
         }
-        model.code.sines = sampled.sines.clone();
+        model.code.sines = sampled.setting.sines.clone();
+        if !model.reduced.is_finite() {
+            return Err(overflow(checked));
+        }
         Ok(Self { model, exact: exact.1, regression, regressor, warnings, sampled })
     }
+}
+
+/// What is said where the model's numbers overflow.
+pub(super) fn overflow(checked: &Checked) -> Error {
+    let mut faults = Diagnostics::of(&checked.loaded.path);
+    let help = "write positions, speeds and the measure in SI units";
+    faults.push("measure", "reaches states at which the model overflows", help);
+    faults.into_error()
 }
 
 fn learns(spec: &Spec) -> bool {
@@ -110,7 +121,7 @@ fn over_dictionary(sampled: &Sampled, functions: usize) -> Model {
     let Sampled { expanded, measure, points, .. } = sampled;
     let (spec, lagrangian) = (&expanded.checked.loaded.spec, &expanded.lagrangian);
     let separate = matches!(spec.model, ModelSpec::Separate { .. });
-    let candidates = dictionary(spec).functions(lagrangian);
+    let candidates = Dictionary::of(spec.dictionary).functions(lagrangian);
     let mut sparse = reduction::over_dictionary(lagrangian, measure, candidates, functions, separate);
     if spec.refit == RefitSpec::Minimax {
         sparse = reduction::minimax_sparse(lagrangian, sparse, functions, points);
@@ -133,32 +144,4 @@ fn cheapest(sampled: &Sampled, exact: &(Form, Graph), means: Means) -> Model {
         progress: means.progress,
     };
     choose::cheapest(&request, checked.loaded.spec.model.tolerance().unwrap_or_default())
-}
-
-/// Faults where more functions are asked for than there are.
-pub(super) fn check_count(spec: &Spec, lagrangian: &Lagrangian, faults: &mut Diagnostics) {
-    let p = dictionary(spec).functions(lagrangian).len();
-    let (field, functions) = match spec.model {
-        ModelSpec::Shared { functions } => ("model.shared.functions", functions),
-        ModelSpec::Separate { functions } => ("model.separate.functions", functions),
-        ModelSpec::Exact | ModelSpec::Tolerance { .. } | ModelSpec::Auto => return,
-    };
-    if functions > p {
-        let whose = match spec.dictionary {
-            DictionarySpec::Harmonic => "exact model",
-            DictionarySpec::Product => "dictionary `product`",
-            DictionarySpec::Union => "dictionary `union`",
-        };
-        let problem = format!("is {functions}, but the {whose} has {p} functions");
-        faults.push(field, problem, format!("write a number from 1 to {p}, or `\"exact\"`"));
-    }
-}
-
-/// The functions among which the reduction chooses.
-pub(crate) fn dictionary(spec: &Spec) -> Dictionary {
-    match spec.dictionary {
-        DictionarySpec::Harmonic => Dictionary::Harmonic,
-        DictionarySpec::Product => Dictionary::Product,
-        DictionarySpec::Union => Dictionary::Union,
-    }
 }

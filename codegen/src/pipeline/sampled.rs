@@ -2,10 +2,11 @@
 
 use super::Means;
 use super::expanded::Expanded;
+use super::setting::Setting;
 use crate::arm::{Arm, JointKind, indefinite_among};
-use crate::bounds::{Bounds, TorqueScale, position_bound, rounded_angles};
+use crate::bounds::{TorqueScale, position_bound};
 use crate::check::Checked;
-use crate::domain::{Domain, Measure};
+use crate::domain::Measure;
 use crate::dynamics::mass_matrix;
 use crate::error::{Diagnostics, Error};
 use crate::number::decimal;
@@ -28,16 +29,12 @@ const VERTEX_POSITIONS: usize = 64;
 pub(super) struct Sampled {
     /// The exact model.
     pub expanded: Expanded,
-    /// How sines are taken.
-    pub sines: Trig,
+    /// Domain, sines and rounded rotations.
+    pub setting: Setting,
     /// The domain as weighted points.
     pub measure: Measure,
     /// The points that parameters are fitted to.
     pub points: Vec<Vec<f64>>,
-    /// The domain within one turn of each joint, where bounds are sought.
-    pub turn: Domain,
-    /// What rounding the arm's rotations changes at most; `None` where it changes nothing.
-    pub angles: Option<Bounds>,
     /// Rates and peak torques; `None` over a workspace where a joint lacks a limit.
     pub scale: Option<TorqueScale>,
 }
@@ -49,9 +46,9 @@ impl Sampled {
         let Expanded { checked, lagrangian, .. } = &expanded;
         let Checked { loaded, built, domain, .. } = checked;
         let arm = &built.arm;
-        let sines = Trig::new(&loaded.spec.emit.trig);
+        let setting = Setting::new(checked);
         let mut faults = Diagnostics::of(&loaded.path);
-        check_angles(&sines, &position_bound(domain), arm, &mut faults);
+        check_angles(&setting.sines, &position_bound(domain), arm, &mut faults);
         faults.finish(())?;
         let stage = Stage::new(means.progress, "measure", 1);
         let measure = Measure::new(domain, arm);
@@ -63,13 +60,10 @@ impl Sampled {
             RefitSpec::Minimax => reduction::extremes(&measure, domain),
             RefitSpec::LeastSquares => measure.points.clone(),
         };
-        let turn = domain.within_a_turn(arm, 1.0);
-        let position_bound = position_bound(&turn);
-        let family = (arm, &built.uncertainty);
-        let angles = rounded_angles(family, (&built.given, &built.uncertain), &position_bound);
+        let Setting { sines, position_bound, angles, .. } = &setting;
         let scale = TorqueScale::new(arm, domain)
-            .map(|scale| scale.reserving((arm, lagrangian), &position_bound, angles.as_ref(), &sines));
-        Ok(Self { sines, measure, points, turn, angles, scale, expanded })
+            .map(|scale| scale.reserving((arm, lagrangian), position_bound, angles.as_ref(), sines));
+        Ok(Self { setting, measure, points, scale, expanded })
     }
 }
 

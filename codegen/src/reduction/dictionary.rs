@@ -8,6 +8,7 @@ use crate::lagrangian::{Function, Lagrangian, evaluate};
 use crate::numerics::basis::Basis;
 use crate::numerics::chebyshev::{fit, spanning_points};
 use crate::parallel::Parallelize;
+use crate::spec::DictionarySpec;
 
 /// The functions among which a reduction chooses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,6 +22,15 @@ pub enum Dictionary {
 }
 
 impl Dictionary {
+    /// The one that a specification names.
+    pub fn of(spec: DictionarySpec) -> Self {
+        match spec {
+            DictionarySpec::Harmonic => Self::Harmonic,
+            DictionarySpec::Product => Self::Product,
+            DictionarySpec::Union => Self::Union,
+        }
+    }
+
     /// Its functions.
     pub fn functions(self, lagrangian: &Lagrangian) -> Vec<CandidateFunction> {
         let plain = |l: &usize| {

@@ -8,7 +8,8 @@ use crate::bounds::{Bounds, Effort, Rates, estimate, factor_bounds, worst_ratio}
 use crate::control::Envelope;
 use crate::domain::Domain;
 use crate::emit::functions;
-use crate::pipeline::{Generation, dictionary};
+use crate::pipeline::Generation;
+use crate::reduction::Dictionary;
 use crate::spec::MatrixSpec;
 
 /// `size` is that of the module, bytes.
@@ -59,7 +60,7 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
         joints: arm.dof(),
         joint_names: arm.joints.iter().map(|joint| joint.name.as_str()).collect(),
         functions: lagrangian.functions.len(),
-        candidates: dictionary(generation.spec()).functions(lagrangian).len(),
+        candidates: Dictionary::of(generation.spec().dictionary).functions(lagrangian).len(),
         coefficients: lagrangian.coefficients.len(),
         terms: lagrangian.terms(),
         selected: functions(lagrangian, reduced),
