@@ -2,7 +2,7 @@
 
 use super::Stage;
 use super::region::{outside, room};
-use super::search::{GainCandidate, Scene, Target};
+use super::search::{FAR, GainCandidate, Scene, Target};
 use crate::check::{GainRequest, Tuning};
 use crate::error::{Diagnostics, Error};
 use crate::number::short;
@@ -59,10 +59,11 @@ pub(super) fn tune(stage: &Stage, request: &GainRequest) -> Result<Tuning, Error
         );
         return Err(faults.into_error());
     }
+    let give_up = request.period.is_none().then_some(FAR);
     let mut nearest: Option<GainCandidate> = None;
     for &period in &periods {
         let _part = told.part();
-        let Some(candidate) = scene.find(period, request.period.is_none())? else { continue };
+        let Some(candidate) = scene.find(period, give_up)? else { continue };
         if candidate.holds {
             return Ok(candidate.tuning);
         }
@@ -192,7 +193,7 @@ fn longest(scene: &Scene, period: f64) -> Result<Option<f64>, Error> {
     let (mut good, mut found, mut before) = (period, false, f64::INFINITY);
     for _ in 0..HALVINGS {
         good = two_digits(0.5 * good);
-        let Some((_, candidate)) = scene.firmest(good, false)? else { continue };
+        let Some((_, candidate)) = scene.firmest(good, Some(FAR))? else { continue };
         found = candidate.holds;
         // Where more gain no longer helps, none will.
         if found || (before.is_finite() && candidate.position_bound > STALLED * before) {
@@ -201,7 +202,7 @@ fn longest(scene: &Scene, period: f64) -> Result<Option<f64>, Error> {
         before = candidate.position_bound;
     }
     let holds = |trial: f64| -> Result<bool, Error> {
-        Ok(scene.firmest(trial, false)?.is_some_and(|(_, candidate)| candidate.holds))
+        Ok(scene.firmest(trial, Some(FAR))?.is_some_and(|(_, candidate)| candidate.holds))
     };
     let mut bad = (2.0 * good).min(period);
     for _ in 0..NEARER {

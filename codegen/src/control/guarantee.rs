@@ -140,7 +140,12 @@ impl Parts<'_> {
         let delta_c1 = control.delta_c1.clone().unwrap_or_else(|| family::multiple_of_identity(k_star, n));
 
         let load = closed_loop.load(&envelope.position_error, &envelope.velocity_error, &delta_c);
-        let longest = self.longest_period(&inertia, over.clone(), &delta_c1, &closed_loop, &load.gain);
+        // Gains that hold no level of V are out of a comparison, whatever their period.
+        let longest = if self.sketch && !settled {
+            Longest { period: 0.0, certified: false }
+        } else {
+            self.longest_period(&inertia, over.clone(), &delta_c1, &closed_loop, &load.gain)
+        };
         let final_error = if self.sketch {
             envelope.position_error.clone()
         } else {

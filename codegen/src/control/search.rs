@@ -28,8 +28,8 @@ const SOFTEST: f64 = 1.0 / 256.0;
 /// Least and largest ratio from one gain to the next, where a softer one is sought for the sake of a torque limit.
 const SOFTER: [f64; 2] = [0.2, 0.8];
 
-/// Errors relative to the room from which a hasty search does not go on.
-const FAR: f64 = 2.0;
+/// Errors relative to the room with which a search for one of several periods does not go on.
+pub(super) const FAR: f64 = 2.0;
 
 /// What the gains are to achieve.
 pub(super) struct Target {
@@ -40,7 +40,7 @@ pub(super) struct Target {
 }
 
 /// How the gain that a joint bears is shared out.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Mix {
     /// Share of K; the rest is the slope of the layer.
     linear: f64,
@@ -110,9 +110,13 @@ impl<'a> Scene<'a> {
     }
 
     /// Gains for `period` that hold and with which each joint by itself is fast enough, or those that come nearest;
-    /// `None` where none are fast enough. In haste the search ends where it begins far off.
-    pub(super) fn find_each(&self, period: f64, hasty: bool) -> Result<Option<GainCandidate>, Error> {
-        let Some((mix, firmest)) = self.firmest(period, hasty)? else { return Ok(None) };
+    /// `None` where none are fast enough. The search ends where its first errors reach `give_up` rooms.
+    pub(super) fn find_each(
+        &self,
+        period: f64,
+        give_up: Option<f64>,
+    ) -> Result<Option<GainCandidate>, Error> {
+        let Some((mix, firmest)) = self.firmest(period, give_up)? else { return Ok(None) };
         let (most, firmest) = match firmest.holds {
             true => (1.0, firmest),
             false => match self.softer(period, mix, &firmest)? {
@@ -158,8 +162,12 @@ impl<'a> Scene<'a> {
         Ok(None)
     }
 
-    /// The best mix of the most gain that the period bears.
-    pub(super) fn firmest(&self, period: f64, hasty: bool) -> Result<Option<(Mix, GainCandidate)>, Error> {
+    /// The best mix of the most gain that the period bears; the search ends where its first errors reach `give_up` rooms.
+    pub(super) fn firmest(
+        &self,
+        period: f64,
+        give_up: Option<f64>,
+    ) -> Result<Option<(Mix, GainCandidate)>, Error> {
         let none = vec![0.0; self.mobility.len()];
         let mut best: Option<(Mix, GainCandidate)> = None;
         let consider = |best: &mut Option<(Mix, GainCandidate)>, change: &dyn Fn(Mix) -> Mix| {
@@ -168,6 +176,9 @@ impl<'a> Scene<'a> {
                 None => (START, f64::INFINITY),
             };
             let mix = change(mix);
+            if best.as_ref().is_some_and(|(judged, _)| *judged == mix) {
+                return Ok(());
+            }
             if let Some(candidate) = self.candidate(period, 1.0, mix, &none, enough)?
                 && (candidate.score < enough || best.is_none())
             {
@@ -179,8 +190,8 @@ impl<'a> Scene<'a> {
             for graded in GRADED {
                 consider(&mut best, &|mix| Mix { graded, ..mix })?;
             }
-            let far = best.as_ref().is_none_or(|(_, candidate)| candidate.position_bound > FAR);
-            if hasty && round == 0 && far {
+            let reached = |most: f64| best.as_ref().is_none_or(|(_, first)| first.position_bound >= most);
+            if round == 0 && give_up.is_some_and(reached) {
                 break;
             }
             for linear in LINEAR {

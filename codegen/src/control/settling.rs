@@ -24,14 +24,16 @@ const MARGIN: f64 = 0.93;
 
 impl Scene<'_> {
     /// Gains for `period` that hold and with which the joints together are fast enough, or those that come nearest;
-    /// `None` where none are fast enough. In haste the search ends where it begins far off.
-    pub(super) fn find(&self, period: f64, hasty: bool) -> Result<Option<GainCandidate>, Error> {
+    /// `None` where none are fast enough. The search ends where its first errors reach `give_up` rooms.
+    pub(super) fn find(&self, period: f64, give_up: Option<f64>) -> Result<Option<GainCandidate>, Error> {
         let super::DesignProblem { arm, motion, .. } = *self.stage.problem;
         let wanted = self.target.time;
         let mut time = wanted;
         for _ in 0..PACES {
             let target = Target { time, room: self.target.room.clone() };
-            let Some(candidate) = self.for_target(&target).find_each(period, hasty)? else { return Ok(None) };
+            let Some(candidate) = self.for_target(&target).find_each(period, give_up)? else {
+                return Ok(None);
+            };
             if !candidate.holds {
                 return Ok(Some(candidate));
             }
