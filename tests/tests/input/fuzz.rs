@@ -155,7 +155,7 @@ fn inputs_that_were_found_are_judged() {
     } });
     let mut heavy = specifications::base(specifications::BASES - 1);
     heavy["arm"]["dh"]["links"][2]["inertia"] =
-        serde_json::json!({ "xx": 4_294_967_295.0, "yy": 0.05, "zz": 1.5707963267948966 });
+        serde_json::json!({ "xx": 4_294_967_295.0, "yy": 0.05, "zz": std::f64::consts::FRAC_PI_2 });
     heavy["control"] = serde_json::json!({
         "law": "report", "design": { "convergence_time": 2.0, "period": 0.001 },
         "initial_error": { "position": 0.001 }
