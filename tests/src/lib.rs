@@ -5,6 +5,7 @@ pub mod double;
 pub mod oracle;
 pub mod random;
 pub mod scratch;
+pub mod tracked;
 pub mod truth;
 
 use std::collections::BTreeMap;
