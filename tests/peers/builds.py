@@ -76,16 +76,19 @@ class Natives:
         self.build("pinocchio_casadi", [*pinocchio, "-O1", "-DNDEBUG", "pinocchio_casadi.cpp", *paths])
 
     def build(self, name, command):
-        program = BUILD / name
+        program, made_by = BUILD / name, BUILD / f"{name}.command"
         if name in self.missing:
             return
-        sources = [Path(__file__), *(HERE / "native").iterdir()]
-        if program.exists() and program.stat().st_mtime > max(part.stat().st_mtime for part in sources):
+        command = [str(part) for part in [*command, "-o", program]]
+        sources = {"harness.c", "model.hpp"} | set(command) & set(os.listdir(HERE / "native"))
+        newest = max((HERE / "native" / source).stat().st_mtime for source in sources)
+        same = made_by.exists() and made_by.read_text() == " ".join(command)
+        if same and program.exists() and program.stat().st_mtime > newest:
             return
         program.unlink(missing_ok=True)
         print(f"building {name}", flush=True)
-        command = [str(part) for part in [*command, "-o", program]]
         done = subprocess.run(command, cwd=HERE / "native", capture_output=True, text=True)
+        made_by.write_text(" ".join(command))
         if done.returncode != 0:
             self.missing[name] = next((l for l in done.stderr.splitlines() if "error" in l), "did not build")
 

@@ -15,6 +15,7 @@ import resource
 import subprocess
 from pathlib import Path
 
+import step
 from arms import KNOWN, REDUCED, ROOT, STATES, Arm, reduced_specification, sources
 from builds import BUILD, HERE, PROCESSOR, PYTHON, VERSIONS, Natives
 from builds import cargo, casadi_program, check_processor, install, install_callgrind
@@ -43,21 +44,25 @@ def described(arms):
     return counts
 
 
+def kinds(arms):
+    """Everything that is generated: (list that names the module, name, specification by form of trigonometry)."""
+    out = [("arms", arm.name, arm.exact) for arm in arms]
+    for arm in (arm.name for arm in arms if arm.name in REDUCED):
+        for tolerance in REDUCED[arm][2]:
+            specify = lambda trig, arm=arm, tolerance=tolerance: reduced_specification(arm, tolerance, trig)
+            out.append(("arms", f"{arm}_within_{tolerance}", specify))
+    return out + [("steps", *kind) for arm in arms for kind in step.kinds(arm)]
+
+
 def generated(arms, gramforge):
-    """Generates every arm's exact module and the reduced ones; the forms of trigonometry that this generator knows, and
-    what it said."""
+    """Generates every module; the forms of trigonometry that this generator knows, and what it said."""
     if gramforge is None:
         run(["cargo", "build", "--release", "--bin", "gramforge"], cwd=ROOT)
         gramforge = ROOT / "target/release/gramforge"
     folder, made = BUILD / "modules", {}
     folder.mkdir(exist_ok=True)
-    trigs, modules = ["libm"], []
-    kinds = [(arm.name, arm.exact) for arm in arms]
-    for arm in (arm.name for arm in arms if arm.name in REDUCED):
-        for tolerance in REDUCED[arm][2]:
-            specify = lambda trig, arm=arm, tolerance=tolerance: reduced_specification(arm, tolerance, trig)
-            kinds.append((f"{arm}_within_{tolerance}", specify))
-    for name, specify in kinds:
+    trigs, modules = ["libm"], {"arms": [], "steps": []}
+    for list_name, name, specify in kinds(arms):
         for trig in ("libm", "polynomial"):
             path = BUILD / f"{name}_{trig}.json"
             path.write_text(json.dumps(specify(trig), indent=2))
@@ -71,11 +76,11 @@ def generated(arms, gramforge):
                 raise SystemExit(done.stderr)
             seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
             made[name, trig] = json.loads(done.stdout)[0] | {"seconds": seconds}
-            modules.append(module(folder / f"{name}_{trig}.rs"))
+            modules[list_name].append(module(folder / f"{name}_{trig}.rs"))
             if trig not in trigs:
                 trigs.append(trig)
-    listed = "".join(f"    {line}\n" for line in modules)
-    (folder / "arms.rs").write_text(f"arms! {{\n{listed}}}\n")
+    for list_name, lines in modules.items():
+        (folder / f"{list_name}.rs").write_text("\n".join([f"{list_name}! {{", *lines, "}\n"]))
     cargo("gramforge", {"GRAMFORGE_MODULES": str(folder), "RUSTFLAGS": f"-C target-cpu={PROCESSOR}"})
     return trigs, made
 
@@ -84,6 +89,12 @@ def module(path):
     """Name, type and number of joints of a generated module, as gramforge/src/main.rs takes them."""
     model, joints = re.search(r"impl (?:\w*::)*Model<(?:f64, )?(\d+)> for (\w+)", path.read_text()).group(2, 1)
     return f"{path.stem} {model} {joints}"
+
+
+def casadi_models(natives):
+    """Title and name of each model that CasADi makes."""
+    models = {"CasADi C, plain recursion": "plain"}
+    return models | ({"CasADi C, Pinocchio's recursion": "pinocchio"} if natives.has("pinocchio_casadi") else {})
 
 
 def implementations(arm, natives, trigs, made):
@@ -100,11 +111,9 @@ def implementations(arm, natives, trigs, made):
         figures = {"operations": count["mul"] + count["add"] + count.get("div", 0), "seconds": said["seconds"]}
         rows.append((f"Gramforge exact, {trig}", program, figures | {"form": said["form"]}))
     functions = r"^(measured|passivity|casadi_f0|casadi_sq)(\..*)?$"
-    makers = {"CasADi C, plain recursion": ("plain", [PYTHON, HERE / "casadi_code.py", arm.path])}
-    if natives.has("pinocchio_casadi"):
-        makers["CasADi C, Pinocchio's recursion"] = ("pinocchio", [BUILD / "pinocchio_casadi", model])
-    for title, (name, maker) in makers.items():
-        program, said = casadi_program(arm, name, maker)
+    makers = {"plain": [PYTHON, HERE / "casadi_code.py", arm.path], "pinocchio": [BUILD / "pinocchio_casadi", model]}
+    for title, name in casadi_models(natives).items():
+        program, said = casadi_program(arm, name, makers[name])
         command = [program, "-", states, arm.n]
         rows.append((title, Program(command, program, functions), {k: said[k] for k in ("operations", "seconds")}))
     if natives.has("pinocchio"):
@@ -195,12 +204,15 @@ def main():
     natives = Natives(options.skip)
     trigs, made = generated(arms, options.gramforge)
     result = {"versions": VERSIONS, "processor": PROCESSOR, "missing": natives.missing, "titles": titles}
-    result |= {"inverse_dynamics": plain, "arms": {}}
+    result |= {"inverse_dynamics": plain, "arms": {}, "steps": {}}
     compilers = (["gcc", "--version"], ["rustc", "--version"], ["valgrind", "--version"])
     result["tools"] = [run(command).stdout.splitlines()[0] for command in compilers]
     for arm in arms:
         print(f"measuring {arm.name}", flush=True)
-        result["arms"][arm.name] = compared(Arm(arm.joints(BUILD / "joints")), natives, trigs, made)
+        joints = Arm(arm.joints(BUILD / "joints"))
+        result["arms"][arm.name] = compared(joints, natives, trigs, made)
+        if step.kinds(arm):
+            result["steps"][arm.name] = step.compared(arm, joints.n, trigs, casadi_models(natives))
     measured = [arm for arm in REDUCED if arm in titles]
     result["reduced"] = {arm: reduced(arm, trigs, made, result["arms"][arm]) for arm in measured}
     (BUILD / "comparison.json").write_text(json.dumps(result, indent=2, ensure_ascii=False) + "\n")

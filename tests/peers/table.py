@@ -4,13 +4,14 @@ from arms import KNOWN, OPENSYMORO, REDUCED
 
 INVERSE = "MuJoCo, mj_inverse (no v_r)"
 OURS, CASADI = "Gramforge exact", "CasADi C"
+BY_HAND = "hand-written C, plain recursion of CasADi"
 
 
 def markdown(result):
     """A summary for README, then every figure, then what was measured with."""
     tables = [reduced(arm, rows) for arm, rows in result["reduced"].items()]
     plain = inverse_dynamics(result["titles"], result["inverse_dynamics"])
-    parts = [summary(result), plain, *tables, details(result), footnotes(result)]
+    parts = [summary(result), plain, steps(result), *tables, details(result), footnotes(result)]
     return "\n\n".join("\n".join(lines) for lines in parts if lines) + "\n"
 
 
@@ -45,6 +46,20 @@ def inverse_dynamics(titles, counts):
         parts = [f"{ours[name] / row[name]:.2f}" if name in row else "–" for name in titles]
         lines += line([f"{rows[0][0]} / {title}", *parts])
     return lines
+
+
+def steps(result):
+    """Instructions of whole control periods, one column an arm that has a controller."""
+    tables = {name: {row["implementation"]: row["instructions"] for row in rows} for name, rows in result["steps"].items()}
+    titles = list(dict.fromkeys(title for table in tables.values() for title in table))
+    lines = ["Whole control period: reference, law `report`, model, limits.", ""]
+    lines += line(["instructions a period", *(result["titles"][name] for name in tables)]) + line(["---"] * (1 + len(tables)))
+    for title in titles:
+        lines += line([title, *(number(table.get(title)) for table in tables.values())])
+    for title in [title for title in titles if title.startswith("Gramforge")]:
+        parts = [f"{table[title] / table[BY_HAND]:.2f}" if title in table else "–" for table in tables.values()]
+        lines += line([f"{title} / {BY_HAND}", *parts])
+    return lines if tables else []
 
 
 def reduced(arm, rows):

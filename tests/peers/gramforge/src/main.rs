@@ -7,7 +7,8 @@
 //! ```
 
 use std::hint::black_box;
-use std::time::Instant;
+
+mod drive;
 
 /// q, q̇, v_r, a_r.
 type State<const N: usize> = [[f64; N]; 4];
@@ -30,7 +31,8 @@ macro_rules! arms {
 
         fn run(name: &str, numbers: &[f64], mode: &str) {
             match name {
-                $(stringify!($name) => drive(&states(numbers), $name::measured, mode),)*
+                // By a pointer, so that the caller cannot change how it is called.
+                $(stringify!($name) => drive::drive(&states(numbers), black_box($name::measured as fn(&_) -> _), mode),)*
                 _ => panic!("no arm {name}"),
             }
         }
@@ -45,34 +47,6 @@ fn states<const N: usize>(numbers: &[f64]) -> Vec<State<N>> {
     numbers.chunks_exact(4 * N).map(state).collect()
 }
 
-fn drive<const N: usize>(states: &[State<N>], measured: fn(&State<N>) -> [f64; N], mode: &str) {
-    let pass = || {
-        for state in states {
-            black_box(measured(black_box(state)));
-        }
-    };
-    match mode {
-        "torques" => {
-            for state in states {
-                println!("{}", measured(state).map(|x| format!("{x:e}")).join(" "));
-            }
-        }
-        "count" => pass(),
-        _ => {
-            for line in std::io::stdin().lines() {
-                let rounds: usize = line.expect("a line").trim().parse().expect("a number of rounds");
-                let start = Instant::now();
-                (0..rounds).for_each(|_| pass());
-                println!("{}", start.elapsed().as_nanos() as f64 / (rounds * states.len()) as f64);
-            }
-        }
-    }
-}
-
 fn main() {
-    let arguments: Vec<String> = std::env::args().collect();
-    let [_, name, path, mode] = &arguments[..] else { panic!("ARM STATES torques|count|time") };
-    let text = std::fs::read_to_string(path).expect("the states");
-    let numbers: Vec<f64> = text.split_whitespace().map(|x| x.parse().expect("a number")).collect();
-    run(name, &numbers, mode);
+    drive::main(run);
 }
