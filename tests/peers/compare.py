@@ -19,10 +19,8 @@ import step
 from arms import KNOWN, REDUCED, ROOT, STATES, Arm, reduced_specification, sources
 from builds import BUILD, HERE, PROCESSOR, PYTHON, VERSIONS, Natives
 from builds import cargo, casadi_program, check_processor, install, install_callgrind
-from measure import Program, deviation, nanoseconds, run
+from measure import AGREEMENT, Program, deviation, nanoseconds, run
 from table import INVERSE, inverse_dynamics, markdown
-
-AGREEMENT = 1e-9
 
 
 def described(arms):
@@ -211,8 +209,8 @@ def main():
         print(f"measuring {arm.name}", flush=True)
         joints = Arm(arm.joints(BUILD / "joints"))
         result["arms"][arm.name] = compared(joints, natives, trigs, made)
-        if step.kinds(arm):
-            result["steps"][arm.name] = step.compared(arm, joints.n, trigs, casadi_models(natives))
+        if step.kinds(arm) and (rows := step.compared(arm, joints.n, trigs, casadi_models(natives))):
+            result["steps"][arm.name] = rows
     measured = [arm for arm in REDUCED if arm in titles]
     result["reduced"] = {arm: reduced(arm, trigs, made, result["arms"][arm]) for arm in measured}
     (BUILD / "comparison.json").write_text(json.dumps(result, indent=2, ensure_ascii=False) + "\n")

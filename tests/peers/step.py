@@ -1,15 +1,15 @@
 """Whole control periods: generated controllers beside the same law written by hand in C around CasADi's models."""
 
 import random
+import subprocess
 
 from arms import REDUCED, ROOT, STATES, read, text
 from builds import BUILD, HERE, OPTIMISED
-from measure import Program, deviation, run
+from measure import AGREEMENT, Program, deviation, run
 
 # Errors of position and velocity at the states: inside and outside the boundary layers, and mostly within torque limits.
 POSITION_ERROR, SPEED_ERROR = 0.005, 0.05
 REDUCED_TO = "1"
-AGREEMENT = 1e-9
 
 
 def kinds(arm):
@@ -50,12 +50,20 @@ def states(arm):
     return text(lines)
 
 
-def by_hand(arm, model, binary):
-    """The program of the law written by hand around one of CasADi's models."""
+def constants(arm, binary):
+    """Writes the constants of the law written by hand into a folder; None, and a message, where it is not the arm's law."""
     folder = BUILD / f"{arm.name}_step"
     folder.mkdir(exist_ok=True)
-    constants = run([binary, f"{arm.name}_step_libm", BUILD / f"{arm.name}.periods", "constants"])
-    (folder / "constants.h").write_text(constants.stdout)
+    command = [binary, f"{arm.name}_step_libm", BUILD / f"{arm.name}.periods", "constants"]
+    done = subprocess.run([str(x) for x in command], capture_output=True, text=True)
+    if done.returncode != 0:
+        return print(f"{arm.name}: whole periods are not compared: {done.stderr.strip()}")
+    (folder / "constants.h").write_text(done.stdout)
+    return folder
+
+
+def by_hand(arm, model, folder):
+    """The program of the law written by hand around one of CasADi's models."""
     program = folder / model
     sources = [HERE / "native/step.c", HERE / "native/harness.c", BUILD / f"{arm.name}_{model}.o"]
     run(["gcc", *OPTIMISED, "-DSTEP", f"-I{folder}", *sources, "-o", program, "-lm"])
@@ -63,10 +71,13 @@ def by_hand(arm, model, binary):
 
 
 def compared(arm, joints, trigs, peers):
-    """Rows of the arm's table; `peers` has the titles of CasADi's models and the names of their objects."""
+    """Rows of the arm's table, none where the hand-written law is not the arm's; `peers` has the titles of CasADi's models
+    and the names of their objects."""
     periods, binary = BUILD / f"{arm.name}.periods", BUILD / "gramforge/release/step"
     periods.write_text(states(arm))
-    programs = []
+    folder, programs = constants(arm, binary), []
+    if folder is None:
+        return []
     for name, _ in kinds(arm):
         exact = name == f"{arm.name}_step"
         for trig in trigs:
@@ -74,7 +85,7 @@ def compared(arm, joints, trigs, peers):
             module = f"{name}_{trig}"
             programs.append((title, exact, Program([binary, module, periods], toggle=f"step::{module}::measured*")))
     for title, model in peers.items():
-        program = by_hand(arm, model, binary)
+        program = by_hand(arm, model, folder)
         programs.append((f"hand-written C, {title.removeprefix('CasADi C, ')} of CasADi", True, Program([program, "-", periods, joints])))
     reference, rows = programs[0][2].torques(), []
     for title, exact, program in programs:

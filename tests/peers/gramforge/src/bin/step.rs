@@ -42,7 +42,13 @@ macro_rules! steps {
                 $(stringify!($name) => {
                     let mut controller = $name::controller().expect("sound constants");
                     if mode == "constants" {
-                        print!("{}", constants(&controller, &$name::REFERENCE));
+                        match constants(&controller, &$name::REFERENCE) {
+                            Ok(text) => print!("{text}"),
+                            Err(what) => {
+                                eprintln!("the law has {what}, which native/step.c leaves out");
+                                std::process::exit(1);
+                            }
+                        }
                     } else {
                         // By a pointer, so that the caller cannot change how it is called.
                         let measured = black_box($name::measured as fn(&mut _, &_) -> _);
@@ -68,20 +74,26 @@ fn states<const N: usize>(numbers: &[f64]) -> Vec<State<N>> {
 /// Bounds of an exact model that are smaller come from right angles written with few digits: nobody would write them by hand.
 const NEGLIGIBLE: f64 = 1e-8;
 
-/// What native/step.c includes. Stops where the law has what that file leaves out.
+/// What native/step.c includes; else what the law has and that file leaves out.
 fn constants<M: Model<N, Scalar = f64>, const N: usize>(
     controller: &Controller<M, ReportLaw<f64, N>, N>,
     reference: &QuinticReference<f64, N>,
-) -> String {
+) -> Result<String, &'static str> {
     let (law, Settings { torque_limit, .. }) = (controller.law(), controller.settings());
     let bounds = controller.model().bounds();
     let zero = |matrix: &[[f64; N]; N]| matrix.as_flattened().iter().all(|x| x.abs() < NEGLIGIBLE);
-    assert!(zero(&bounds.d) && zero(&law.delta_c) && zero(&[bounds.b; N]), "the model is not exact");
-    assert!(
-        matches!(&law.coriolis_term, CoriolisTerm::Matrix(matrix) if zero(matrix)),
-        "the law has a term ΔC1"
-    );
-    assert!(law.coulomb == [[0.0; 2]; N], "the law compensates Coulomb friction");
+    let left_out = [
+        (!(zero(&bounds.d) && zero(&law.delta_c) && zero(&[bounds.b; N])), "bounds of an uncertain model"),
+        (!matches!(&law.coriolis_term, CoriolisTerm::Matrix(matrix) if zero(matrix)), "a Coriolis term"),
+        (law.coulomb != [[0.0; 2]; N], "compensation of Coulomb friction"),
+        (
+            [&law.gains.p12, &law.gains.damping, &law.gains.pqq].into_iter().any(is_full),
+            "gains that are not diagonal",
+        ),
+    ];
+    if let Some((_, what)) = left_out.iter().find(|(given, _)| *given) {
+        return Err(what);
+    }
 
     let gain: [f64; N] = std::array::from_fn(|i| bounds.g[i] + law.disturbance[i]);
     let (robust, limited) = (!zero(&[gain; N]), torque_limit.iter().any(Option::is_some));
@@ -97,12 +109,14 @@ fn constants<M: Model<N, Scalar = f64>, const N: usize>(
     text += &(vector("PQQ", diagonal(&law.gains.pqq))
         + &vector("VISCOUS", controller.model().viscous_friction()));
     text += &(vector("GAIN", gain) + &vector("PHI", layer.unwrap_or([1.0; N])));
-    text + &vector("LIMIT", torque_limit.map(|limit| limit.unwrap_or(f64::MAX)))
+    Ok(text + &vector("LIMIT", torque_limit.map(|limit| limit.unwrap_or(f64::MAX))))
+}
+
+fn is_full<const N: usize>(matrix: &[[f64; N]; N]) -> bool {
+    matrix.as_flattened().iter().enumerate().any(|(k, x)| k % (N + 1) != 0 && *x != 0.0)
 }
 
 fn diagonal<const N: usize>(matrix: &[[f64; N]; N]) -> [f64; N] {
-    let only = |(k, x): (usize, &f64)| k % (N + 1) == 0 || *x == 0.0;
-    assert!(matrix.as_flattened().iter().enumerate().all(only), "the gains are not diagonal");
     std::array::from_fn(|i| matrix[i][i])
 }
 
