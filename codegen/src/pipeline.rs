@@ -23,7 +23,7 @@ use sampled::Sampled;
 
 use crate::bounds::Effort;
 use crate::cache::Cache;
-use crate::check::{Extent, checked};
+use crate::check::{Checked, Extent, checked};
 use crate::error::Error;
 use crate::load::Loaded;
 use crate::progress::Progress;
@@ -39,6 +39,15 @@ struct Means<'a> {
     cache: Option<&'a Cache>,
 }
 
+/// Which model is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Wanted {
+    /// The one that the specification asks for.
+    Asked,
+    /// The exact one, since a step with the cheapest reduced one saves too little.
+    Exact,
+}
+
 /// Runs every stage on `loaded`.
 ///
 /// # Errors
@@ -46,12 +55,20 @@ struct Means<'a> {
 fn run(loaded: Loaded, extent: Extent, means: Means) -> Result<Generation, Error> {
     threads::check()?;
     let checked = checked(loaded.clone(), extent).map_err(|error| expanded::with_count(error, &loaded))?;
-    let certified = proved::kept_or(checked, means, |checked| {
+    let mut designed = Designed::new(certified(checked, Wanted::Asked, means)?, means)?;
+    if let Some(saving) = designed.too_small() {
+        let exact = certified(designed.certified.checked, Wanted::Exact, means)?;
+        designed = Designed { not_worth: Some(saving), ..Designed::new(exact, means)? };
+    }
+    Ok(Generation::concluded(designed, means))
+}
+
+/// The stages before the controller.
+fn certified(checked: Checked, wanted: Wanted, means: Means) -> Result<Certified, Error> {
+    proved::kept_or(checked, wanted, means, |checked| {
         let expanded = Expanded::new(checked, means)?;
         let sampled = Sampled::new(expanded, means)?;
-        let modelled = Modelled::new(sampled, means)?;
+        let modelled = Modelled::new(sampled, wanted, means)?;
         Certified::new(modelled, means)
-    })?;
-    let designed = Designed::new(certified, means)?;
-    Ok(Generation::concluded(designed, means))
+    })
 }

@@ -60,6 +60,8 @@ struct Inspection<'a> {
     domain: DomainView,
     form: &'static str,
     operations: Costs,
+    /// Of a whole control step.
+    step_operations: Option<StepCosts>,
     /// Of the module, bytes.
     size: usize,
     verdict: String,
@@ -125,6 +127,13 @@ struct DomainView {
 struct Costs {
     reduced: Operations,
     exact: Operations,
+}
+
+#[derive(Serialize)]
+struct StepCosts {
+    reduced: Operations,
+    /// The same law with the exact model; none for a law that learns.
+    exact: Option<Operations>,
 }
 
 #[derive(Serialize)]

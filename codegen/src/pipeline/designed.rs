@@ -2,7 +2,7 @@
 
 use super::Means;
 use super::certified::Certified;
-use crate::check::Control;
+use crate::check::{Checked, Control};
 use crate::control::{Design, DesignProblem, StepGraph, StepModel, design};
 use crate::error::{Diagnostics, Error};
 use crate::spec::RobustGainSpec;
@@ -18,6 +18,26 @@ pub(super) struct Designed {
     pub design: Option<Design>,
     /// The controller's step: law and model as one graph.
     pub step: Option<StepGraph>,
+    /// The step of the same law about the exact model; `None` without a controller, or for a law that learns.
+    pub exact_step: Option<StepGraph>,
+    /// What a step with the cheapest reduced model would have saved, where that was too little.
+    pub not_worth: Option<Saving>,
+}
+
+/// Costs of two steps, by [`crate::graph::Operations::cost`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Saving {
+    /// With the reduced model.
+    pub reduced: usize,
+    /// With the exact one.
+    pub exact: usize,
+}
+
+impl Saving {
+    /// Whether a reduction pays: it saves a twentieth of the step at least.
+    pub fn pays(&self) -> bool {
+        20 * self.reduced <= 19 * self.exact
+    }
 }
 
 impl Designed {
@@ -25,7 +45,7 @@ impl Designed {
     /// [`Error::Input`] where the gains overflow, no gains do what is asked for, or a required guarantee does not hold.
     pub fn new(certified: Certified, means: Means) -> Result<Self, Error> {
         let Some(control) = &certified.checked.control else {
-            return Ok(Self { certified, design: None, step: None });
+            return Ok(Self { certified, design: None, step: None, exact_step: None, not_worth: None });
         };
         let state = || with_gain(&certified, control, means, false);
         let constant = || with_gain(&certified, control, means, true);
@@ -40,7 +60,26 @@ impl Designed {
                 (Err(_), other) => other?,
             },
         };
-        Ok(Self { certified, design: Some(design), step: Some(step) })
+        let exact_step = (design.adaptation.is_none()).then(|| {
+            let uncertain = !certified.checked.built.uncertainty.is_empty();
+            design.exact_step(&certified.proved.exact, &viscous(&certified.checked), uncertain)
+        });
+        Ok(Self { certified, design: Some(design), step: Some(step), exact_step, not_worth: None })
+    }
+
+    /// What the step saves against that of the exact model; `None` where there is nothing to compare.
+    pub fn saving(&self) -> Option<Saving> {
+        let [reduced, exact] = [&self.step, &self.exact_step].map(|step| {
+            step.as_ref().map(|step| step.operations().cost())
+        });
+        Some(Saving { reduced: reduced?, exact: exact? })
+    }
+
+    /// What it saves, where the specification leaves the choice of the model open and that is too little.
+    pub fn too_small(&self) -> Option<Saving> {
+        let open = self.certified.checked.loaded.spec.model.tolerance().is_some();
+        let reduced = !self.certified.proved.model.reduced.is_exact();
+        self.saving().filter(|saving| open && reduced && !saving.pays())
     }
 }
 
@@ -48,6 +87,10 @@ impl Designed {
 fn cheaper(first: (Design, StepGraph), second: (Design, StepGraph)) -> (Design, StepGraph) {
     let rank = |(design, step): &(Design, StepGraph)| (!design.guarantee.holds, step.operations().cost());
     if rank(&second) < rank(&first) { second } else { first }
+}
+
+fn viscous(checked: &Checked) -> Vec<f64> {
+    checked.built.arm.joints.iter().map(|joint| joint.viscous_friction).collect()
 }
 
 /// The controller whose ρ is constant, or the law's own bracket.
@@ -85,7 +128,7 @@ fn with_gain(
         faults.push("control", problem, "write gains and initial errors in SI units");
     }
     faults.finish(())?;
-    let viscous: Vec<f64> = checked.built.arm.joints.iter().map(|joint| joint.viscous_friction).collect();
+    let viscous = viscous(checked);
     let step = design.step(&StepModel {
         code: &proved.model.code,
         regressor: proved.regressor.as_ref(),

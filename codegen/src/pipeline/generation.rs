@@ -29,7 +29,7 @@ use crate::torque::{Form, Regressor};
 /// no bound is exceeded by any state of the domain.
 #[derive(Clone, Debug)]
 pub struct Generation {
-    designed: Designed,
+    pub(super) designed: Designed,
     met: Option<Met>,
 }
 
@@ -235,6 +235,12 @@ impl Generation {
     /// The controller's step, law and model as one graph; `None` without a controller.
     pub fn step(&self) -> Option<&StepGraph> {
         self.designed.step.as_ref()
+    }
+
+    /// The step of the same law about the exact model, with a constant gain for what is uncertain about the arm; `None` without
+    /// a controller, or for a law that learns.
+    pub fn exact_step(&self) -> Option<&StepGraph> {
+        self.designed.exact_step.as_ref()
     }
 
     /// The parameters of a law that learns; `None` for the other laws.

@@ -1,11 +1,12 @@
 //! Stage 4: the model that the specification asks for, with its code.
 
 use super::sampled::Sampled;
-use super::{Means, angles};
+use super::{Means, Wanted, angles};
 use crate::check::Checked;
 use crate::choose::{self, ToleranceRequest};
 use crate::error::{Diagnostics, Error};
 use crate::graph::Graph;
+use crate::lagrangian::Lagrangian;
 use crate::model::Model;
 use crate::progress::Stage;
 use crate::reduction::{self, Dictionary, Regression};
@@ -34,7 +35,7 @@ pub(super) struct Modelled {
 impl Modelled {
     /// # Errors
     /// [`Error::Input`] where a parameter overflows.
-    pub fn new(sampled: Sampled, means: Means) -> Result<Self, Error> {
+    pub fn new(sampled: Sampled, wanted: Wanted, means: Means) -> Result<Self, Error> {
         let checked = &sampled.expanded.checked;
         let (lagrangian, built) = (&sampled.expanded.lagrangian, &checked.built);
         let stage = Stage::new(means.progress, "reduction", 1);
@@ -44,7 +45,10 @@ impl Modelled {
         };
         let mut warnings = sampled.expanded.warnings.clone();
         warnings.extend(angles::advice(&checked.loaded, &built.arm, &built.given, &exact.1));
-        let mut model = requested(&sampled, &exact, means);
+        let mut model = match wanted {
+            Wanted::Asked => requested(&sampled, &exact, means),
+            Wanted::Exact => unreduced(lagrangian, &exact),
+        };
         let regression = learns(&checked.loaded.spec).then(|| regression(&sampled, &mut model));
         drop(stage);
         if model.form == Form::Recursive && !sampled.setting.sines.rounds() {
@@ -87,16 +91,19 @@ fn regression(sampled: &Sampled, model: &mut Model) -> Regression {
     Regression::new(lagrangian, &model.reduced, adaptation.unwrap_or_default().parameters, &names)
 }
 
+/// The exact model in the form that costs least.
+fn unreduced(lagrangian: &Lagrangian, exact: &(Form, Graph)) -> Model {
+    let (form, code) = exact.clone();
+    Model { reduced: reduction::exact(lagrangian), form, code }
+}
+
 /// The model that the specification asks for; `exact` is the form and the code of the exact one.
 fn requested(sampled: &Sampled, exact: &(Form, Graph), means: Means) -> Model {
     let Sampled { expanded, measure, points, .. } = sampled;
     let (spec, lagrangian) = (&expanded.checked.loaded.spec, &expanded.lagrangian);
     let minimax = spec.refit == RefitSpec::Minimax;
     let reduced = match spec.model {
-        ModelSpec::Exact => {
-            let (form, code) = exact.clone();
-            return Model { reduced: reduction::exact(lagrangian), form, code };
-        }
+        ModelSpec::Exact => return unreduced(lagrangian, exact),
         ModelSpec::Auto | ModelSpec::Tolerance { .. } => return cheapest(sampled, exact, means),
         ModelSpec::Shared { functions } | ModelSpec::Separate { functions }
             if spec.dictionary != DictionarySpec::Harmonic =>

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::Means;
+use super::{Means, Wanted};
 use super::certified::Certified;
 use crate::bounds::Effort;
 use crate::cache::Cache;
@@ -16,12 +16,13 @@ const KIND: &str = "model";
 /// What the cache holds of `checked`, or else what `prove` gives, which is kept.
 pub(super) fn kept_or(
     checked: Checked,
+    wanted: Wanted,
     means: Means,
     prove: impl FnOnce(Checked) -> Result<Certified, Error>,
 ) -> Result<Certified, Error> {
     let Some((cache, key)) = means.cache.and_then(|cache| {
         let controlled = checked.control.is_some();
-        Some((cache, key(cache, &checked.loaded, controlled, means.effort)?))
+        Some((cache, key(cache, &checked.loaded, wanted, controlled, means.effort)?))
     }) else {
         return prove(checked);
     };
@@ -35,14 +36,22 @@ pub(super) fn kept_or(
 
 /// Lets the entry behind the whole module of `loaded` stay, though nobody reads it: the gains may change next.
 pub(crate) fn keep(cache: &Cache, loaded: &Loaded, effort: &Effort) {
-    if let Some(key) = key(cache, loaded, loaded.spec.control.is_some(), effort) {
-        cache.keep(KIND, &key);
+    for wanted in [Wanted::Asked, Wanted::Exact] {
+        if let Some(key) = key(cache, loaded, wanted, loaded.spec.control.is_some(), effort) {
+            cache.keep(KIND, &key);
+        }
     }
 }
 
 /// The key of everything that the model and its bounds follow from. Of the controller that is whether there is one, which
 /// law it is, what is uncertain, and what is learnt.
-fn key(cache: &Cache, loaded: &Loaded, controlled: bool, effort: &Effort) -> Option<String> {
+fn key(
+    cache: &Cache,
+    loaded: &Loaded,
+    wanted: Wanted,
+    controlled: bool,
+    effort: &Effort,
+) -> Option<String> {
     let mut spec = serde_json::to_value(&loaded.spec).ok()?;
     let fields = spec.as_object_mut()?;
     fields.remove("simulation");
@@ -52,5 +61,5 @@ fn key(cache: &Cache, loaded: &Loaded, controlled: bool, effort: &Effort) -> Opt
         let kept = json!({ "law": part("law"), "uncertainty": part("uncertainty"), "learns": learns });
         fields.insert("control".to_string(), kept);
     }
-    cache.key(loaded, &spec, &format!("{KIND} {controlled} {effort:?}"))
+    cache.key(loaded, &spec, &format!("{KIND} {wanted:?} {controlled} {effort:?}"))
 }

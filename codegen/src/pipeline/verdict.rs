@@ -1,14 +1,22 @@
 //! Whether the reduction pays.
 
 use super::Generation;
+use super::designed::Saving;
 use crate::choose::why_exact;
 use crate::graph::Operations;
 
 impl Generation {
     /// Whether the reduction pays, in one sentence; of an exact model, why it is one.
     ///
-    /// Costs are compared as the search for a model compares them, by [`Operations::cost`].
+    /// With a controller, whole control steps of the same law are compared, else the models; by [`Operations::cost`].
     pub fn verdict(&self) -> String {
+        if let Some(saving) = self.designed.not_worth {
+            let Saving { reduced, exact } = saving;
+            return format!(
+                "A control step with the cheapest reduced model that was found would cost {reduced} operations, and {exact} with \
+                 the exact one: less than 5 % is saved, so this is the exact model."
+            );
+        }
         if self.reduced().is_exact() {
             let peak = self.torque().map(|torque| torque.peak.as_slice());
             return match self.spec().model.tolerance() {
@@ -19,7 +27,23 @@ impl Generation {
         if !self.reduced().simplified.contains(&true) {
             return "No coefficient has more functions than are kept, so nothing was simplified.".to_string();
         }
-        compared(&self.code().operations(), &self.exact_code().operations())
+        match self.designed.saving() {
+            Some(saving) => of_steps(saving),
+            None => compared(&self.code().operations(), &self.exact_code().operations()),
+        }
+    }
+}
+
+fn of_steps(saving: Saving) -> String {
+    let Saving { reduced, exact } = saving;
+    if saving.pays() {
+        let saved = exact - reduced;
+        format!("The reduction pays: it saves {saved} of {exact} operations of a control step.")
+    } else {
+        format!(
+            "The reduction does not pay: a control step costs {reduced} operations, and {exact} with the exact model. It pays \
+             from 5 % on."
+        )
     }
 }
 

@@ -2,10 +2,10 @@
 
 use super::{
     AdaptationView, BoundsView, ControlView, Costs, DomainView, EstimateView, GuaranteeView, Inspection,
-    RangeView, RatesView,
+    RangeView, RatesView, StepCosts,
 };
 use crate::bounds::{Bounds, Effort, Rates, estimate, factor_bounds, worst_ratio};
-use crate::control::Envelope;
+use crate::control::{Envelope, StepGraph};
 use crate::domain::Domain;
 use crate::emit::functions;
 use crate::pipeline::Generation;
@@ -85,11 +85,17 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
         form: generation.form().name(),
         verdict: generation.verdict(),
         operations,
+        step_operations: step_costs(generation),
         size,
         control,
         guarantee,
         warnings: generation.warnings(),
     }
+}
+
+fn step_costs(generation: &Generation) -> Option<StepCosts> {
+    let reduced = generation.step()?.operations();
+    Some(StepCosts { reduced, exact: generation.exact_step().map(StepGraph::operations) })
 }
 
 fn rates(rates: &Rates) -> RatesView<'_> {
