@@ -88,7 +88,7 @@ fn the_three_link_arm_gets_gains_that_hold() {
     three_link("tight", 0.6, None);
 }
 
-/// `cargo test --release -p gramforge-tests --test designed -- --ignored --nocapture`
+/// `cargo test --release -p gramforge-tests --test bounds -- designed:: --ignored --nocapture`
 #[test]
 #[ignore = "seconds in release mode"]
 fn every_law_gets_gains_that_hold() {

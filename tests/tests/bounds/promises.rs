@@ -108,7 +108,7 @@ fn the_longest_period_of_random_loops_is_safe_and_not_timid() {
     sample_periods(10);
 }
 
-/// `cargo test --release -p gramforge-tests --test promises -- --ignored --nocapture`: a minute.
+/// `cargo test --release -p gramforge-tests --test bounds -- promises:: --ignored --nocapture`: a minute.
 #[test]
 #[ignore = "a hundred closed loops: in release mode"]
 fn the_longest_period_of_a_hundred_random_loops() {

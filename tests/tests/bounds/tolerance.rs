@@ -1,7 +1,7 @@
 //! Modes `tolerance` and `auto`, and dictionaries with products.
 //!
 //! The full sweep takes the six-joint arms and the Panda:
-//! `cargo test --release -p gramforge-tests --test tolerance -- --include-ignored --nocapture`
+//! `cargo test --release -p gramforge-tests --test bounds -- tolerance:: --include-ignored --nocapture`
 
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
 //! The inequalities behind the guarantees, along simulated runs of arms drawn from the families that they are given for.
 //!
 //! Two hundred arms, and a PUMA 560 with a payload:
-//! `cargo test --release -p gramforge-tests --test lyapunov -- --include-ignored --nocapture`
+//! `cargo test --release -p gramforge-tests --test physics -- lyapunov:: --include-ignored --nocapture`
 
 mod closed;
 
