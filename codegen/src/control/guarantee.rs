@@ -249,7 +249,7 @@ impl Parts<'_> {
             _ => vec![0.0; n],
         };
         if let Some(learning) = &closed_loop.learning {
-            // Stability of small motions: what learning does in large ones counts in the ball.
+            // Stability of small motions: what learning does in large ones counts in the ultimate bound.
             let (rates, _) = closed_loop.rates(&vec![0.0; n], &vec![0.0; n]);
             let more = learning.gain(&rates, self.tuning.period);
             slope.iter_mut().zip(more).for_each(|(slope, more)| *slope += more);

@@ -153,7 +153,7 @@ fn committed_modules_are_current() {
 }
 
 #[test]
-fn a_stale_module_names_the_command_that_mends_it() {
+fn a_stale_module_names_the_command_that_renews_it() {
     let stale = Config::new().spec(spec("arm3_csv")).out_dir("../generated/src").check();
     let message = stale.unwrap_err().to_string();
     println!("{message}");

@@ -26,7 +26,7 @@ fn inside<const N: usize>(generation: &Generation, sample: &Sample<f64, N>) -> b
     (0..N).all(|i| (sample.q[i] - sample.desired.q[i]).abs() <= tube[i] && sample.qd[i].abs() <= speed[i])
 }
 
-/// The published envelope, and the ball in the end.
+/// The error stays within the published envelope and, at the `end`, within the final error.
 fn within<const N: usize>(design: &Design, error: &[f64; N], end: bool) {
     let published = if end { &design.guarantee.final_error } else { &design.envelope.position_error };
     assert!(error.iter().zip(published).all(|(e, p)| *e <= *p), "{error:?} beyond {published:?}");
