@@ -11,6 +11,7 @@ mod gains;
 mod guarantee;
 mod inertia;
 mod limits;
+mod mix;
 mod region;
 mod rounding;
 mod search;
