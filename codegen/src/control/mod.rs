@@ -18,6 +18,7 @@ mod search;
 mod settling;
 #[cfg(test)]
 mod tests;
+mod tube_needed;
 mod ultimate_bound;
 mod verified;
 
