@@ -125,7 +125,6 @@ impl Parts<'_> {
         let delta_c = bounds.coriolis(&envelope.speed);
         let k_star = family::smallest_multiple(&delta_c);
         let delta_c1 = control.delta_c1.clone().unwrap_or_else(|| family::multiple_of_identity(k_star, n));
-
         let load = closed_loop.load(&envelope.position_error, &envelope.velocity_error, &delta_c);
         // Gains that hold no level of V are out of a comparison, whatever their period.
         let longest = if self.sketch && !settled {
@@ -153,9 +152,7 @@ impl Parts<'_> {
             true => self.smallest_tube(&inertia, &envelope, position, &position_bound)?,
             false => None,
         };
-        if !leaves.is_empty() {
-            reasons.push(leaves.join("; "));
-        }
+        reasons.extend((!leaves.is_empty()).then(|| leaves.join("; ")));
         let (rates, _) = closed_loop.rates(&envelope.position_error, &envelope.velocity_error);
         let guarantee = Guarantee {
             holds: reasons.is_empty(),
