@@ -18,6 +18,16 @@ pub(super) struct Given {
     pseudo_inertia: Option<SymmetricIntervalsSpec>,
 }
 
+/// A body and where it stands.
+pub(super) struct Carried<'a> {
+    /// Number of the joint that moves it, from 0.
+    pub(super) joint: usize,
+    /// The arm's own body, in the frame of its intervals.
+    pub(super) body: &'a Body,
+    /// This frame in the moved frame of the joint.
+    pub(super) frame: &'a Transform,
+}
+
 impl Given {
     pub(super) fn payload(spec: &PayloadUncertaintySpec) -> Self {
         let PayloadUncertaintySpec { mass, at, first_moment, pseudo_inertia } = spec.clone();
@@ -29,17 +39,15 @@ impl Given {
         Self { mass, at, first_moment, pseudo_inertia }
     }
 
-    /// One parameter for each interval; `nominal` is the body in the frame of the intervals, which stands at `frame`
-    /// in the moved frame of joint number `joint`.
+    /// One parameter for each interval of the body `carried`.
     pub(super) fn parameters(
         &self,
         name: &str,
-        joint: usize,
-        nominal: &Body,
-        frame: &Transform,
+        carried: &Carried,
         place: &Place,
         faults: &mut Diagnostics,
     ) -> Vec<Parameter> {
+        let Carried { joint, body: nominal, frame } = *carried;
         let at = self.at.unwrap_or_default();
         let [moments, inertias] = sizes(nominal, frame);
         let mut numbers =
