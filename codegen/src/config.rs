@@ -198,8 +198,8 @@ fn same_name(spec: &Path, made: &Made, other: &Made) -> Vec<crate::error::Diagno
     let first = other.spec.display();
     faults.push(
         "name",
-        format!("is {:?}, as in {first}", made.name),
-        "give every specification a name of its own",
+        format!("is {:?}, which {first} also uses", made.name),
+        "give each specification a different name",
     );
     match faults.into_error() {
         Error::Input(list) => list,

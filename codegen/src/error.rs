@@ -187,7 +187,11 @@ impl Error {
 fn stale(files: &[Stale]) -> String {
     let line = |file: &Stale| {
         let path = file.path.to_string_lossy();
-        format!("{} is not what its specification gives; run `{}`", escaped(&path), escaped(&file.command))
+        format!(
+            "{} differs from what its specification gives; run `{}`",
+            escaped(&path),
+            escaped(&file.command)
+        )
     };
     files.iter().map(line).collect::<Vec<_>>().join("\n")
 }

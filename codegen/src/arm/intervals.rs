@@ -125,13 +125,13 @@ pub(super) fn about(
     let size = low.abs().max(high.abs()).max(size);
     let slack = SLACK * size;
     if !(low.is_finite() && high.is_finite() && low <= high) {
-        place.fault(faults, format!("is {range:?}"), "write two finite numbers, the lowest first");
+        place.fault(faults, format!("is {range:?}"), "write two finite numbers, the lower one first");
     } else if not_negative && low < 0.0 {
         place.fault(faults, format!("is {range:?}"), "write numbers of at least 0");
     } else if value < low - slack || high + slack < value {
         place.fault(
             faults,
-            format!("is {range:?}, which does not hold the arm's own {value}"),
+            format!("is {range:?}, which does not contain the arm's own {value}"),
             "write an interval about the arm's own value, or change the arm",
         );
     } else {

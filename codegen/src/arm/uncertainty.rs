@@ -90,7 +90,7 @@ impl Uncertainty {
             };
             if spec.links[..index].iter().any(|other| other.joint == link.joint) {
                 let help = "write its intervals in one place: the two would add up";
-                place.at("joint").fault(faults, format!("is {:?} once more", link.joint), help);
+                place.at("joint").fault(faults, format!("is {:?} again", link.joint), help);
                 continue;
             }
             let joint = &arm.joints[number];

@@ -71,7 +71,7 @@ fn motions_fit_the_arm() {
         },
         &[
             "motion.waypoints.times[0]: is 0.5; start at 0",
-            "motion.waypoints.times[2]: is 1, after 1; let the times rise",
+            "motion.waypoints.times[2]: is 1, after 1; write the times in increasing order",
             "motion.waypoints.positions: has 2 entries; write 3, one for each time",
             "motion.waypoints.positions[1]: has 1 entry; write 3",
         ],

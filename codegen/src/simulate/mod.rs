@@ -80,7 +80,7 @@ impl<'a> Scenario<'a> {
         let file = generation.path();
         let missing = |field: &str, what: &str| {
             let help = format!("add `{field}` to the specification");
-            Error::input(file, field, format!("is missing, and a simulation needs {what}"), help)
+            Error::input(file, field, format!("is missing, but a simulation needs {what}"), help)
         };
         let control = generation.control().ok_or_else(|| missing("control", "a law"));
         Ok(Self {
@@ -196,7 +196,7 @@ fn learning<const N: usize>(
     let count = adaptation.rate.len();
     if count > MOST_LEARNT {
         let help = "learn the `uncertain` parameters";
-        let problem = format!("are {count}; a simulation bears {MOST_LEARNT}");
+        let problem = format!("are {count}; a simulation allows at most {MOST_LEARNT}");
         return Err(Error::input(file, "control.adaptation.parameters", problem, help));
     }
     let padded = |values: &[f64], rest: f64| std::array::from_fn(|k| values.get(k).copied().unwrap_or(rest));

@@ -130,7 +130,7 @@ fn a_delta_c1_of_ones_own_is_verified() {
         v["control"]["delta_c1"] = json!(1.0);
     })
     .unwrap_err();
-    assert!(message.contains("control.delta_c1: has no place in this law"), "{message}");
+    assert!(message.contains("control.delta_c1: is not used by this law"), "{message}");
 }
 
 #[test]

@@ -110,7 +110,7 @@ fn root<'a>(
             None
         }
         several => {
-            let problem = format!("falls apart: {} are carried by no joint", listed(several));
+            let problem = format!("is not connected: no joint carries {}", listed(several));
             let second = robot.links.iter().find(|link| several.get(1) == Some(&link.name));
             let whole = at_first(second.map(|link| &link.place), whole);
             whole.fault(faults, problem, "join the parts, or remove all but the arm");

@@ -76,7 +76,7 @@ const CASES: &[Case] = &[
             i.set("/measure", json!("trajectory"));
         },
         "control.design",
-        &["no room", "take the measure `tube`"],
+        &["needs room for errors", "take the measure `tube`"],
     ),
     case(
         "a period that no gains bear",
