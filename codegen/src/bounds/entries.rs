@@ -80,7 +80,7 @@ impl Bounds {
         Self::from_sizes(sizes, |size| size.exact)
     }
 
-    /// With [`DIGITS`] digits, rounded up: what has to be read by people and stored in firmware needs no more.
+    /// With six digits, rounded up: what has to be read by people and stored in firmware needs no more.
     #[must_use]
     pub fn rounded_up(mut self) -> Self {
         let all = self.d.iter_mut().chain(self.h.iter_mut().flatten()).chain([&mut self.b, &mut self.g]);
