@@ -116,11 +116,7 @@ impl Parts<'_> {
         let v_max = level(position);
         let level_found = closed_loop.invariant_level(v_max, position)?;
         let settled = level_found.is_some();
-        let mut reasons = Vec::new();
-        if !settled {
-            reasons
-                .push(format!("no level of V is found that the law keeps it below: {}", more(control.law)));
-        }
+        let mut reasons: Vec<String> = (!settled).then(|| unsettled(control.law)).into_iter().collect();
         let envelope = level_found.map_or_else(|| closed_loop.envelope_at(v_max, position), Ok)?;
         let delta_c = bounds.coriolis(&envelope.speed);
         let k_star = family::smallest_multiple(&delta_c);
@@ -152,7 +148,9 @@ impl Parts<'_> {
             true => self.smallest_tube(&inertia, &envelope, position, &position_bound)?,
             false => None,
         };
-        reasons.extend((!leaves.is_empty()).then(|| leaves.join("; ")));
+        if !leaves.is_empty() {
+            reasons.push(leaves.join("; "));
+        }
         let (rates, _) = closed_loop.rates(&envelope.position_error, &envelope.velocity_error);
         let guarantee = Guarantee {
             holds: reasons.is_empty(),
@@ -230,9 +228,9 @@ impl Parts<'_> {
     }
 }
 
-/// What helps a law that holds no level of V.
-fn more(law: LawSpec) -> &'static str {
-    match law {
+/// What is said of a law that holds no level of V.
+fn unsettled(law: LawSpec) -> String {
+    let more = match law {
         LawSpec::Exact => {
             "raise W or Omega, or take law `report` or `tight`, which outweigh what the model leaves out"
         }
@@ -240,5 +238,6 @@ fn more(law: LawSpec) -> &'static str {
         LawSpec::Adaptive => {
             "raise W or Omega, narrow the boundary layer or the intervals of uncertainty, or lower Ptheta"
         }
-    }
+    };
+    format!("no level of V is found that the law keeps it below: {more}")
 }

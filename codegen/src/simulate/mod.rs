@@ -196,7 +196,7 @@ fn learning<const N: usize>(
     let count = adaptation.rate.len();
     if count > MOST_LEARNT {
         let help = "learn the `uncertain` parameters";
-        let problem = format!("are {count}; a simulation allows at most {MOST_LEARNT}");
+        let problem = format!("are {count}; a simulation bears {MOST_LEARNT}");
         return Err(Error::input(file, "control.adaptation.parameters", problem, help));
     }
     let padded = |values: &[f64], rest: f64| std::array::from_fn(|k| values.get(k).copied().unwrap_or(rest));
