@@ -54,7 +54,7 @@ pub fn read(path: &Path) -> Result<Loaded, Error> {
     }
     let mut values = Diagnostics::of(&loaded.path);
     examine(&loaded, Extent::Whole, &mut values);
-    // Faults of what stands in for a section, or of its absence, are none of the user's.
+    // Do not report faults of a placeholder or of a missing section: the user did not write it.
     let gone = |section: &str| lost.contains(section);
     let together = ["dictionary", "emit.trig", "control.law"];
     let known = |fault: &&Diagnostic| {

@@ -22,7 +22,7 @@ const OPT_LEVEL: &str = env!("GRAMFORGE_OPT_LEVEL");
 pub(super) fn run(config: &Config, out: &mut impl Write) -> bool {
     let start = Instant::now();
     let loaded = config.load();
-    // Told before the work begins: they must stand, too, where it fails or is interrupted.
+    // Print this first, so that cargo knows the files even if the work fails or is interrupted.
     let told = watch(config, &loaded, out);
     let names: Vec<String> = loaded.iter().filter_map(module_name).collect();
     let result = config.folder().and_then(|folder| {
