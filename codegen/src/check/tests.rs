@@ -96,7 +96,7 @@ fn measures_have_what_they_need() {
     let without = |v: &mut Value| {
         v.as_object_mut().expect("an object").remove("motion");
     };
-    expect(without, &["motion: is missing, and the measure `tube` follows it; add a motion"]);
+    expect(without, &["motion: is missing, but the measure `tube` needs it; add a motion"]);
     expect(
         |v| {
             without(v);
