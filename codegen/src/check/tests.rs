@@ -102,14 +102,14 @@ fn measures_have_what_they_need() {
             without(v);
             v["measure"] = json!("trajectory");
         },
-        &["motion: is missing, and the measure `trajectory`"],
+        &["motion: is missing, but the measure `trajectory`"],
     );
     expect(
         |v| {
             without(v);
             v.as_object_mut().expect("an object").remove("measure");
         },
-        &["motion: is missing, and the measure `tube`, the default,"],
+        &["motion: is missing, but the measure `tube`, the default,"],
     );
     expect(
         |v| v["measure"]["tube"]["position_error"] = json!([0.1, -0.1]),

@@ -28,8 +28,8 @@ fn a_tolerance_that_rounded_rotations_exceed_is_refused() {
     let message = nearly_square(0.01, 0.001).expect_err("12.99 % for 0.1 %");
     assert_eq!(
         message,
-        "arm.json: arm.round_angles: is 0.01, and rotations rounded by that cost 12.99 % of the peak torque of joint1, where \
-         `model` allows 0.1 %; write a smaller value, such as 1e-9, or a `model.tolerance.torque` above 0.1299"
+        "arm.json: arm.round_angles: is 0.01, and rounding rotations by up to this costs 12.99 % of the peak torque of joint1, \
+         but `model` allows 0.1 %; write a smaller value, such as 1e-9, or a `model.tolerance.torque` above 0.1299"
     );
     // Both ways out that the message names are open.
     for (round_angles, torque) in [(1e-9, 0.001), (0.01, 0.13)] {
