@@ -15,6 +15,11 @@ fn main() {
         "puma3_tolerance",
         "stanford_tolerance",
         "follower",
+        "panda",
+        "step_tight",
+        "step_switching",
+        "step_constant",
+        "step_exact",
     ];
     let config =
         specs.iter().fold(gramforge::Config::new(), |config, name| config.spec(format!("data/{name}.json")));

@@ -17,8 +17,10 @@ pub use arm::{
     ArmSpec, Convention, CoulombSpec, DhSpec, DriveSpec, JointKind, LimitsSpec, LinkSpec, MotorSpec,
     PayloadSpec, SymmetricSpec,
 };
-pub use control::{ControlSpec, CoriolisTermSpec, DesignSpec, InitialErrorSpec, LawSpec, OnFaultSpec};
-pub use emit::{EmitSpec, ScalarSpec, TrigSpec};
+pub use control::{
+    ControlSpec, CoriolisTermSpec, DesignSpec, InitialErrorSpec, LawSpec, OnFaultSpec, RobustGainSpec,
+};
+pub use emit::{EmitSpec, LawCodeSpec, ScalarSpec, TrigSpec};
 pub use model::{DictionarySpec, MeasureSpec, ModelSpec, RefitSpec};
 pub use motion::{MotionSpec, SinusoidSpec};
 pub use uncertainty::{

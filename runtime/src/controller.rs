@@ -45,7 +45,7 @@ impl<T: Real, const N: usize> Settings<T, N> {
         }
     }
 
-    fn limit(&self, torque: &[T; N]) -> Command<T, N> {
+    pub(crate) fn limit(&self, torque: &[T; N]) -> Command<T, N> {
         let mut command = Command { torque: *torque, saturated: [false; N] };
         for ((torque, saturated), limit) in
             command.torque.iter_mut().zip(&mut command.saturated).zip(&self.torque_limit)
@@ -67,6 +67,53 @@ pub struct Command<T, const N: usize> {
     pub torque: [T; N],
     /// The joints whose torque the limit has cut.
     pub saturated: [bool; N],
+}
+
+/// What closes a loop: one torque for each measurement.
+pub trait TorqueController<const N: usize> {
+    /// Number type.
+    type Scalar: Real;
+    /// What the law learns.
+    type Learnt: Copy;
+
+    /// Time from one step to the next, s.
+    fn period(&self) -> Self::Scalar;
+
+    /// What the law has learnt so far.
+    fn learnt(&self) -> &Self::Learnt;
+
+    /// As [`Controller::step`].
+    ///
+    /// # Errors
+    /// As [`Controller::step`].
+    fn step(
+        &mut self,
+        q: &[Self::Scalar; N],
+        qd: &[Self::Scalar; N],
+        desired: &Desired<Self::Scalar, N>,
+    ) -> Result<Command<Self::Scalar, N>, Fault<Self::Scalar, N>>;
+}
+
+impl<M: Model<N>, L: Law<M, N>, const N: usize> TorqueController<N> for Controller<M, L, N> {
+    type Scalar = M::Scalar;
+    type Learnt = L::State;
+
+    fn period(&self) -> M::Scalar {
+        self.settings.period
+    }
+
+    fn learnt(&self) -> &L::State {
+        &self.memory.law
+    }
+
+    fn step(
+        &mut self,
+        q: &[M::Scalar; N],
+        qd: &[M::Scalar; N],
+        desired: &Desired<M::Scalar, N>,
+    ) -> Result<Command<M::Scalar, N>, Fault<M::Scalar, N>> {
+        Controller::step(self, q, qd, desired)
+    }
 }
 
 /// A model, a law and a clock period, with the little that must be remembered between steps.

@@ -74,15 +74,19 @@ mod real;
 pub mod reference;
 mod regression;
 pub mod simulate;
+pub mod step;
 #[cfg(test)]
 mod test_arm;
 pub mod trig;
 mod vector;
 
-pub use controller::{Command, Controller, OnFault, Settings};
+pub use controller::{Command, Controller, OnFault, Settings, TorqueController};
 pub use error::{ConfigError, Fault, PlantError, Quantity, Requirement};
-pub use law::{AdaptiveLaw, CoriolisTerm, ExactLaw, Gains, Law, ReportLaw, Switching, TightLaw};
+pub use law::{
+    AdaptiveLaw, ConstantGainLaw, CoriolisTerm, ExactLaw, Gains, Law, ReportLaw, Switching, TightLaw,
+};
 pub use model::{Bounds, Model};
 pub use real::Real;
 pub use reference::{Desired, QuinticReference, Reference, SinusoidReference, SplineReference};
 pub use regression::{AdaptiveModel, Regression};
+pub use step::{ControlStep, StepController};

@@ -1,6 +1,7 @@
 """C code of the passivity torque by two inverse dynamics, made with CasADi. Run by compare.py in its environment.
 
-    casadi_code.py ARM FILE.c     prints operations and CPU seconds as JSON
+    casadi_code.py JOINTS.json FILE.c     prints operations and CPU seconds as JSON
+    casadi_code.py JOINTS.json            prints the operations of plain inverse dynamics alone
 
 τ = rnea(q, (q̇ + v_r)/2, a_r) − rnea₀(q, (q̇ − v_r)/2, 0), rnea₀ without gravity: equal to D a_r + C(q, q̇) v_r + G because
 the Christoffel C(q, ·)· is symmetric in its two velocities.
@@ -89,6 +90,14 @@ def passivity(arm):
     return ca.Function("passivity", [q, qd, v_r, a_r], [ca.cse(tau)])
 
 
+def inverse_dynamics(arm):
+    """The function (q, q̇, q̈) ↦ τ: one recursion, without a second velocity."""
+    q, qd, qdd = (ca.SX.sym(name, arm.n) for name in ("q", "qd", "qdd"))
+    rotors = [a * r for a, r in zip(arm.armature, ca.vertsplit(qdd))]
+    tau = ca.vertcat(*(t + r for t, r in zip(rnea(arm, q, qd, qdd, arm.gravity), rotors)))
+    return ca.Function("inverse_dynamics", [q, qd, qdd], [ca.cse(tau)])
+
+
 def operations(function):
     """Operations but trigonometry, and sines and cosines."""
     free = {ca.OP_CONST, ca.OP_INPUT, ca.OP_OUTPUT, ca.OP_PARAMETER, ca.OP_ASSIGN}
@@ -98,7 +107,10 @@ def operations(function):
 
 
 def main():
-    arm, path = Arm(sys.argv[1]), Path(sys.argv[2])
+    arm = Arm(Path(sys.argv[1]))
+    if len(sys.argv) == 2:
+        return print(json.dumps({"operations": operations(inverse_dynamics(arm))[0]}))
+    path = Path(sys.argv[2])
     start = time.process_time()
     function = passivity(arm)
     function.generate(path.name)

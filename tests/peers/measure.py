@@ -5,6 +5,8 @@ import re
 import statistics
 import subprocess
 
+# Largest deviation from the first row, as a fraction of the largest torque.
+AGREEMENT = 1e-9
 ROUNDS = 60
 BLOCK_NS = 2e6
 

@@ -1,12 +1,13 @@
 """Writes an arm as a compiled MuJoCo model. Run by compare.py in its environment.
 
-    mujoco_model.py ARM FILE.mjb
+    mujoco_model.py JOINTS.json FILE.mjb
 
 The inertias go into the compiled model: the compiler would refuse a link without mass, and one that breaks the triangle
 inequality, both of which the usual PUMA 560 has.
 """
 
 import sys
+from pathlib import Path
 
 import mujoco
 import numpy as np
@@ -41,7 +42,7 @@ def chain(arm):
 
 
 def main():
-    arm = Arm(sys.argv[1])
+    arm = Arm(Path(sys.argv[1]))
     model = mujoco.MjModel.from_xml_string(chain(arm))
     for body, joint in enumerate(arm.joints, start=1):
         moments, axes = np.linalg.eigh(np.array(joint["I_com"]))

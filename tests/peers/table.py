@@ -1,15 +1,17 @@
 """The comparison as Markdown."""
 
-from arms import ARMS, REDUCED
+from arms import KNOWN, OPENSYMORO, REDUCED
 
 INVERSE = "MuJoCo, mj_inverse (no v_r)"
 OURS, CASADI = "Gramforge exact", "CasADi C"
+BY_HAND = "hand-written C, plain recursion of CasADi"
 
 
 def markdown(result):
     """A summary for README, then every figure, then what was measured with."""
     tables = [reduced(arm, rows) for arm, rows in result["reduced"].items()]
-    parts = [summary(result), *tables, details(result), footnotes(result)]
+    plain = inverse_dynamics(result["titles"], result["inverse_dynamics"])
+    parts = [summary(result), plain, steps(result), *tables, details(result), footnotes(result)]
     return "\n\n".join("\n".join(lines) for lines in parts if lines) + "\n"
 
 
@@ -17,7 +19,7 @@ def summary(result):
     """Instructions and operations, one column an arm; below, ours as fractions of each CasADi row."""
     tables = {name: {row["implementation"]: row for row in rows} for name, rows in result["arms"].items()}
     titles = list(next(iter(tables.values())))
-    lines = line(["instructions a call (operations)", *(ARMS[name][1] for name in tables)])
+    lines = line(["instructions a call (operations)", *(result["titles"][name] for name in tables)])
     lines += line(["---"] * (1 + len(tables)))
     for title in titles:
         rows = [table[title] for table in tables.values()]
@@ -31,11 +33,40 @@ def summary(result):
     return lines
 
 
+def inverse_dynamics(titles, counts):
+    """Operations of plain inverse dynamics, v_r = q̇, one column an arm."""
+    ours, casadi = ({name: count[who] for name, count in counts.items()} for who in ("gramforge", "casadi"))
+    rows = [("Gramforge exact, v_r = q̇", ours), ("CasADi C, plain recursion", casadi)]
+    rows.append(("OpenSYMORO, base parameters", OPENSYMORO))
+    lines = ["Plain inverse dynamics D q̈ + C q̇ + G, operations without sines and cosines:", ""]
+    lines += line(["operations", *titles.values()]) + line(["---"] * (1 + len(titles)))
+    for title, row in rows:
+        lines += line([title, *(number(row.get(name)) for name in titles)])
+    for title, row in rows[1:]:
+        parts = [f"{ours[name] / row[name]:.2f}" if name in row else "–" for name in titles]
+        lines += line([f"{rows[0][0]} / {title}", *parts])
+    return lines
+
+
+def steps(result):
+    """Instructions of whole control periods, one column an arm that has a controller."""
+    tables = {name: {row["implementation"]: row["instructions"] for row in rows} for name, rows in result["steps"].items()}
+    titles = list(dict.fromkeys(title for table in tables.values() for title in table))
+    lines = ["Whole control period: reference, law `report`, model, limits.", ""]
+    lines += line(["instructions a period", *(result["titles"][name] for name in tables)]) + line(["---"] * (1 + len(tables)))
+    for title in titles:
+        lines += line([title, *(number(table.get(title)) for table in tables.values())])
+    for title in [title for title in titles if title.startswith("Gramforge")]:
+        parts = [f"{table[title] / table[BY_HAND]:.2f}" if title in table else "–" for table in tables.values()]
+        lines += line([f"{title} / {BY_HAND}", *parts])
+    return lines if tables else []
+
+
 def reduced(arm, rows):
     """The reduced models of one arm beside CasADi's code for the exact one."""
     peers = list(rows[0]["parts"])
     heads = ["tolerance", "sines", "certified", "operations", "instructions", *(f"/ {peer}" for peer in peers)]
-    lines = [f"{ARMS[arm][1]} {REDUCED[arm][1]}, reduced to a part of each joint's peak torque:", ""]
+    lines = [f"{KNOWN[arm][1]} {REDUCED[arm][1]}, reduced to a part of each joint's peak torque:", ""]
     lines += line([*heads, "code bytes", "source bytes", "generation, CPU s"]) + line(["---"] * (len(heads) + 3))
     for row in rows:
         lines += line(
@@ -62,7 +93,7 @@ def details(result):
         for k, row in enumerate(rows):
             low, high = row["ns"]["quartiles"]
             cells = [
-                ARMS[name][1] if k == 0 else "",
+                result["titles"][name] if k == 0 else "",
                 row["implementation"],
                 number(row["instructions"]),
                 number(row.get("operations")),

@@ -6,6 +6,7 @@ pub mod gains;
 pub mod oracle;
 pub mod random;
 pub mod scratch;
+pub mod tracked;
 pub mod truth;
 
 use std::collections::BTreeMap;

@@ -9,6 +9,11 @@ use crate::lagrangian::{Coefficient, Entry, Lagrangian};
 /// Decimal digits of published bounds.
 pub(super) const DIGITS: usize = 6;
 
+/// `x` with six digits, rounded up.
+pub fn six_digits_up(x: f64) -> f64 {
+    rounding::up(x, DIGITS)
+}
+
 /// Element-by-element bounds (26)–(28) over a domain, zero where the model is exact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bounds {
@@ -27,6 +32,12 @@ impl Bounds {
     pub fn is_finite(&self) -> bool {
         let h = self.h.iter().flatten();
         self.d.iter().chain(h).chain([&self.b, &self.g]).flatten().all(|v| v.is_finite())
+    }
+
+    /// True where nothing is left out.
+    pub fn is_zero(&self) -> bool {
+        let h = self.h.iter().flatten();
+        self.d.iter().chain(h).chain([&self.b, &self.g]).flatten().all(|&v| v == 0.0)
     }
 
     /// Spreads one bound for each coefficient over the places where it stands; ΔB = 0.
@@ -84,7 +95,7 @@ impl Bounds {
     #[must_use]
     pub fn rounded_up(mut self) -> Self {
         let all = self.d.iter_mut().chain(self.h.iter_mut().flatten()).chain([&mut self.b, &mut self.g]);
-        all.flatten().for_each(|bound| *bound = rounding::up(*bound, DIGITS));
+        all.flatten().for_each(|bound| *bound = six_digits_up(*bound));
         self
     }
 

@@ -37,7 +37,7 @@ mod trig;
 mod weighted;
 
 pub use effort::Effort;
-pub use entries::Bounds;
+pub use entries::{Bounds, six_digits_up};
 pub use estimate::estimate;
 pub use factor::{factor, factor_bounds};
 pub(crate) use model_error::ModelError;

@@ -8,7 +8,8 @@ use crate::domain::{DEFAULT_TUBE, Domain};
 use crate::load::Loaded;
 use crate::motion::Motion;
 use crate::spec::{
-    AdaptationSpec, ControlSpec, CoriolisTermSpec, DesignSpec, LawSpec, MeasureSpec, OnFaultSpec, Spec,
+    AdaptationSpec, ControlSpec, CoriolisTermSpec, DesignSpec, LawSpec, MeasureSpec, OnFaultSpec,
+    RobustGainSpec, Spec,
 };
 
 /// A specification that passed every check that needs no dynamics.
@@ -38,6 +39,8 @@ pub struct Control {
     pub gains: GainSource,
     /// The variant of (34).
     pub coriolis_term: CoriolisTermSpec,
+    /// What a robust law switches with; `Auto` only where there is a choice.
+    pub robust_gain: RobustGainSpec,
     /// ΔC1 of equation (34), n×n, N·m·s/rad; `None` for k*·I.
     pub delta_c1: Option<Vec<Vec<f64>>>,
     /// Largest initial errors.
@@ -93,6 +96,7 @@ impl Control {
                 None => GainSource::Given(Tuning::given(spec, n)?),
             },
             coriolis_term: spec.coriolis_term,
+            robust_gain: robust_gain(spec),
             delta_c1: spec.delta_c1.as_ref().map_or(Some(None), |m| m.by_rows(n).map(Some))?,
             initial_error: InitialError {
                 position: spec.initial_error.position.by_joint(n)?,
@@ -104,6 +108,15 @@ impl Control {
             compensate_coulomb: spec.compensate_coulomb,
             on_fault: spec.on_fault,
         })
+    }
+}
+
+/// Without a choice it is the law's own: no bracket to replace, or one that the specification gives numbers for.
+fn robust_gain(spec: &ControlSpec) -> RobustGainSpec {
+    let own = spec.delta_c1.is_some() || spec.coriolis_term != CoriolisTermSpec::Matrix;
+    match spec.robust_gain {
+        RobustGainSpec::Auto if own || !spec.law.has_choice() => RobustGainSpec::State,
+        asked => asked,
     }
 }
 

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::shape::entries;
 use crate::error::Diagnostics;
 use crate::number::scientific;
-use crate::spec::{ControlSpec, CoriolisTermSpec, LawSpec, MatrixSpec};
+use crate::spec::{ControlSpec, CoriolisTermSpec, LawSpec, MatrixSpec, RobustGainSpec};
 use crate::text::has;
 
 /// Rounding that passes for symmetry or for zero, relative to the largest entry.
@@ -27,6 +27,7 @@ pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut D
     entries(position, &initial.position, joints, |v| v >= 0.0, wanted, faults);
     entries(velocity, &initial.velocity, joints, |v| v >= 0.0, wanted, faults);
     delta_c1(control, joints, faults);
+    robust_gain(control, faults);
     adaptation(control, faults);
     let mut gain = |field, spec: &Option<MatrixSpec>| {
         spec.as_ref().and_then(|spec| definite(field, spec, joints, faults))
@@ -51,6 +52,24 @@ fn delta_c1(control: &ControlSpec, joints: Option<usize>, faults: &mut Diagnosti
         faults.push("control.delta_c1", "is not used by this law", help);
     }
     square("control.delta_c1", spec, joints, faults);
+}
+
+/// A constant gain replaces the bracket and ΔC1.
+fn robust_gain(control: &ControlSpec, faults: &mut Diagnostics) {
+    if control.robust_gain != RobustGainSpec::Constant {
+        return;
+    }
+    if !control.law.has_choice() {
+        let help = "remove it, or choose law `report` or `tight`";
+        faults.push("control.robust_gain", "`constant` goes with the laws `report` and `tight` alone", help);
+    } else if control.delta_c1.is_some() || control.coriolis_term != CoriolisTermSpec::Matrix {
+        let help = "remove `delta_c1` and `coriolis_term`, or write `state`";
+        faults.push(
+            "control.robust_gain",
+            "`constant` replaces what `delta_c1` and `coriolis_term` belong to",
+            help,
+        );
+    }
 }
 
 /// What is to be learnt takes the intervals that it lies in, and a law that learns.

@@ -29,7 +29,7 @@ pub struct Envelope {
 
 /// What works against the law while the errors stay below some bounds.
 pub(super) struct Load {
-    /// The largest switching gain ρ, N·m; for law (16) what the model leaves out.
+    /// The switching gain ρ that is enough, N·m or N; for law (16) what the model leaves out.
     pub(super) gain: Vec<f64>,
     /// sup|Yθ_e|, N·m: what a layer that teaches nothing leaves of the wrong parameters.
     pub(super) taught: Vec<f64>,
@@ -39,10 +39,31 @@ pub(super) struct Load {
     step: f64,
 }
 
+/// A constant switching gain.
+pub(super) struct Fixed {
+    /// ρ by joint, N·m or N.
+    pub(super) rho: Vec<f64>,
+    /// The largest errors for which it outweighs the model's error.
+    pub(super) position_error: Vec<f64>,
+    pub(super) velocity_error: Vec<f64>,
+}
+
+impl Fixed {
+    /// Whether ρ is enough for errors up to these.
+    fn covers(&self, position_error: &[f64], velocity_error: &[f64]) -> bool {
+        let below = |x: &[f64], most: &[f64]| x.iter().zip(most).all(|(x, most)| x <= most);
+        below(position_error, &self.position_error) && below(velocity_error, &self.velocity_error)
+    }
+}
+
 /// A law at work: everything but the initial error.
 pub(super) struct ClosedLoop<'a> {
     pub(super) law: LawSpec,
     pub(super) term: CoriolisTermSpec,
+    /// Whether ρ is one number by joint: the largest that the model is off by, with no ΔC1 beside it.
+    pub(super) constant: bool,
+    /// That number, once it is known, with the largest |q_e| and |q̇_e| for which it is enough.
+    pub(super) fixed: Option<Fixed>,
     pub(super) gains: &'a Gains,
     pub(super) form: &'a Form,
     pub(super) bounds: &'a Bounds,
@@ -125,7 +146,7 @@ impl ClosedLoop<'_> {
             rates: &rates,
             s: &s,
             position_error: position,
-            robust_gain: &gain,
+            robust_gain: self.switched(&gain),
         };
         Load {
             rounding: self.rounding.torque(&working),
@@ -136,7 +157,12 @@ impl ClosedLoop<'_> {
         }
     }
 
-    /// The largest switching gain ρ by joint, N·m or N, for rates up to `rates` and |s| up to `s`.
+    /// The switching gain that works where this one would be enough.
+    fn switched<'b>(&'b self, enough: &'b [f64]) -> &'b [f64] {
+        self.fixed.as_ref().map_or(enough, |fixed| &fixed.rho)
+    }
+
+    /// The largest switching gain ρ by joint, N·m or N, that outweighs the model's error for rates up to `rates` and |s| up to `s`.
     pub(super) fn robust_gain(&self, rates: &Rates, s: &[f64], delta_c: &[Vec<f64>]) -> Vec<f64> {
         let n = s.len();
         let Rates { speed, reference_speed: v_r, reference_acceleration: a_r } = rates;
@@ -148,6 +174,10 @@ impl ClosedLoop<'_> {
             _ => (0..n).map(|j| weighed(&self.bounds.h[i][j], speed) * v_r[j]).sum(),
         };
         let friction = |i: usize| self.bounds.b[i] * speed[i] + self.disturbance[i];
+        if self.constant {
+            let model = self.bounds.torque(rates);
+            return (0..n).map(|i| model[i] + friction(i)).collect();
+        }
         (0..n)
             .map(|i| weighed(&self.bounds.d[i], a_r) + coriolis(i) + self.bounds.g[i] + friction(i))
             .collect()
@@ -197,7 +227,7 @@ impl ClosedLoop<'_> {
     /// by T Σ|D⁻¹|_jk 2ρ_k.
     pub(super) fn chatter(&self, gain: &[f64]) -> f64 {
         let mobility = &self.inertia.mobility;
-        let sum: f64 = gain.iter().zip(mobility).map(|(rho, m)| rho * libm::sqrt(*m)).sum();
+        let sum: f64 = self.switched(gain).iter().zip(mobility).map(|(rho, m)| rho * libm::sqrt(*m)).sum();
         4.0 * self.period * sum * sum
     }
 
@@ -208,6 +238,9 @@ impl ClosedLoop<'_> {
         let mut level = v_max + self.learning.as_ref().map_or(0.0, |learning| learning.start);
         for _ in 0..ROUNDS {
             let (position_error, velocity_error) = self.errors(level, start)?;
+            if self.fixed.as_ref().is_some_and(|fixed| !fixed.covers(&position_error, &velocity_error)) {
+                return Ok(None);
+            }
             let speed: Vec<f64> = self.speed.iter().zip(&velocity_error).map(|(d, e)| d + e).collect();
             let load = self.load(&position_error, &velocity_error, &self.bounds.coriolis(&speed));
             let ultimate_bound = self.ultimate_bound(&load, false) + self.parameter_energy();

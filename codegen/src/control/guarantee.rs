@@ -1,7 +1,7 @@
 //! What is promised of the closed loop, and why not where nothing is.
 
 use super::adaptation::{Adaptation, Learning, regression};
-use super::error_envelope::{ClosedLoop, Envelope, Load};
+use super::error_envelope::{ClosedLoop, Envelope, Fixed, Load};
 use super::feedforward::Feedforward;
 use super::form::{Form, InertiaBounds, inertia_bounds, initial_level};
 use super::inertia::Inertia;
@@ -75,6 +75,8 @@ pub(super) struct Parts<'a> {
     pub(super) rounding: &'a Rounding<'a>,
     pub(super) tuning: &'a crate::check::Tuning,
     pub(super) adaptation: Option<&'a Adaptation>,
+    /// Whether ρ is one number by joint.
+    pub(super) constant: bool,
     /// The bounds on D, where the same gains were judged before.
     pub(super) facts: Option<&'a InertiaBounds>,
     /// Pass over final error, largest initial error and smallest tube, which a comparison of gains does not need.
@@ -112,7 +114,7 @@ impl Parts<'_> {
             let cell = start(domain, motion, position);
             initial_level(&inertia, self.gains, cell, position, velocity)
         };
-        let closed_loop = self.closed_loop(&facts, &position_bound)?;
+        let mut closed_loop = self.closed_loop(&facts, &position_bound)?;
         let v_max = level(position);
         let level_found = closed_loop.invariant_level(v_max, position)?;
         let settled = level_found.is_some();
@@ -122,6 +124,14 @@ impl Parts<'_> {
         let k_star = family::smallest_multiple(&delta_c);
         let delta_c1 = control.delta_c1.clone().unwrap_or_else(|| family::multiple_of_identity(k_star, n));
         let load = closed_loop.load(&envelope.position_error, &envelope.velocity_error, &delta_c);
+        let (rates, _) = closed_loop.rates(&envelope.position_error, &envelope.velocity_error);
+        if self.constant {
+            closed_loop.fixed = Some(Fixed {
+                rho: load.gain.clone(),
+                position_error: envelope.position_error.clone(),
+                velocity_error: envelope.velocity_error.clone(),
+            });
+        }
         // Gains that hold no level of V are out of a comparison, whatever their period.
         let longest = if self.sketch && !settled {
             Longest { period: 0.0, certified: false }
@@ -151,7 +161,6 @@ impl Parts<'_> {
         if !leaves.is_empty() {
             reasons.push(leaves.join("; "));
         }
-        let (rates, _) = closed_loop.rates(&envelope.position_error, &envelope.velocity_error);
         let guarantee = Guarantee {
             holds: reasons.is_empty(),
             reasons,
@@ -200,6 +209,8 @@ impl Parts<'_> {
         Ok(ClosedLoop {
             law: control.law,
             term: control.coriolis_term,
+            constant: self.constant,
+            fixed: None,
             gains: self.gains,
             form: &self.form,
             bounds,
@@ -224,7 +235,9 @@ impl Parts<'_> {
 
     pub(super) fn has_matrix(&self) -> bool {
         let control = self.problem.control;
-        control.law.has_bracket() && control.coriolis_term == crate::spec::CoriolisTermSpec::Matrix
+        !self.constant
+            && control.law.has_bracket()
+            && control.coriolis_term == crate::spec::CoriolisTermSpec::Matrix
     }
 }
 

@@ -67,7 +67,11 @@ impl Parts<'_> {
         let start = Start { target: &target, position, velocity };
         let most = |x: &[f64]| x.iter().map(|x| x.abs()).collect::<Vec<_>>();
         let (rates, s) = closed_loop.rates_about(&most(&target.qd), &most(&target.qdd), position, velocity);
-        let (model, rho) = (bounds.torque(&rates), closed_loop.robust_gain(&rates, &s, delta_c));
+        let model = bounds.torque(&rates);
+        let rho = match &closed_loop.fixed {
+            Some(fixed) => fixed.rho.clone(),
+            None => closed_loop.robust_gain(&rates, &s, delta_c),
+        };
         let switching = |i: usize| match self.layer() {
             _ if !control.law.is_robust() => 0.0,
             Some(phi) => rho[i] * (s[i] / phi[i]).min(1.0),

@@ -16,6 +16,7 @@ mod region;
 mod rounding;
 mod search;
 mod settling;
+mod step;
 #[cfg(test)]
 mod tests;
 mod tube_needed;
@@ -31,18 +32,21 @@ pub use form::InertiaBounds;
 pub use gains::Gains;
 pub use guarantee::Guarantee;
 pub use inertia::{Cell, Extremes, Inertia};
+pub use step::{RobustGain, StepGraph, StepParts};
 
 use crate::arm::{Arm, Uncertainty};
-use crate::bounds::{Bounds, Rates};
+use crate::bounds::{Bounds, Rates, Torque, six_digits_up};
 use crate::check::{Control, GainSource, Tuning};
 use crate::domain::Domain;
 use crate::error::{Diagnostics, Error};
+use crate::graph::Graph;
 use crate::lagrangian::Lagrangian;
 use crate::motion::Motion;
 use crate::number::short;
 use crate::progress::{self, Progress};
 use crate::reduction::Regression;
 use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec};
+use crate::torque::Regressor;
 use feedforward::Feedforward;
 use rounding::Rounding;
 
@@ -68,6 +72,8 @@ pub struct Design {
     pub k_star: f64,
     /// The variant of (34).
     pub coriolis_term: CoriolisTermSpec,
+    /// What a robust law switches with.
+    pub robust_gain: RobustGain,
     /// ΔC1, n×n: the specification's, which was verified, or k*·I.
     pub delta_c1: Vec<Vec<f64>>,
     /// Bound on the Coulomb friction that the command does not cancel, by joint, N·m or N.
@@ -88,8 +94,21 @@ pub struct Design {
     pub guarantee: Guarantee,
 }
 
-/// What a law is designed from.
+/// The model that a step computes with.
 #[derive(Clone, Copy, Debug)]
+pub struct StepModel<'a> {
+    /// The passivity torque.
+    pub code: &'a Graph,
+    /// The same as a function of what the law learns.
+    pub regressor: Option<&'a Regressor>,
+    /// What it leaves out.
+    pub bounds: &'a Bounds,
+    /// Viscous friction of each joint, N·m·s/rad or N·s/m.
+    pub viscous: &'a [f64],
+}
+
+/// What a law is designed from.
+#[derive(Clone, Copy)]
 pub struct DesignProblem<'a> {
     /// The specification, which faults name.
     pub file: &'a Path,
@@ -117,6 +136,10 @@ pub struct DesignProblem<'a> {
     pub regression: Option<&'a Regression>,
     /// Whether to seek the smallest sufficient tube even where no guarantee is required.
     pub seek_tube: bool,
+    /// What the model is off by at most, by joint, N·m or N, for rates up to these.
+    pub torque_error: &'a dyn Fn(&Rates) -> Vec<f64>,
+    /// The same for the measure's own rates; `None` over a workspace where a joint lacks a limit.
+    pub declared: Option<&'a Torque>,
     /// Who is told how far the search for gains is.
     pub progress: &'a dyn Progress,
 }
@@ -126,9 +149,9 @@ pub struct DesignProblem<'a> {
 /// # Errors
 /// [`Error::Input`] where ΔC1 does not outweigh ΔC, the period is too long, or a required guarantee does not hold;
 /// [`Error::Internal`] where a matrix that was checked before turns out singular.
-pub fn design(problem: &DesignProblem) -> Result<Design, Error> {
+pub fn design(problem: &DesignProblem, constant: bool) -> Result<Design, Error> {
     let DesignProblem { file, control, arm, .. } = *problem;
-    let stage = Stage::new(problem)?;
+    let stage = Stage::new(problem, constant)?;
     let tuning = match &control.gains {
         GainSource::Requested(request) => gain_synthesis::tune(&stage, request)?,
         GainSource::Given(tuning) => tuning.clone(),
@@ -136,18 +159,24 @@ pub fn design(problem: &DesignProblem) -> Result<Design, Error> {
     let told = progress::Stage::new(problem.progress, "guarantee", 1);
     let (gains, judgement) = stage.judge(&tuning)?;
     drop(told);
-    let guarantee::Judgement { envelope, delta_c, k_star, delta_c1, guarantee, rates, settled, .. } =
+    let guarantee::Judgement { envelope, delta_c, k_star, delta_c1, guarantee, rates, settled, gain, .. } =
         judgement;
+    let rates = settled.then_some(rates);
+    let robust_gain = match constant {
+        true => RobustGain::Constant(stage.constant_gain(&gain, rates.as_ref())),
+        false => RobustGain::State,
+    };
     let design = Design {
         law: control.law,
         gains,
         w: tuning.w,
         omega: tuning.omega,
         envelope,
-        rates: settled.then_some(rates),
+        rates,
         delta_c,
         k_star,
         coriolis_term: control.coriolis_term,
+        robust_gain,
         delta_c1,
         disturbance: stage.disturbance,
         boundary_layer: tuning.boundary_layer,
@@ -175,10 +204,12 @@ struct Stage<'a> {
     coulomb: Vec<[f64; 2]>,
     /// What rounds.
     rounding: Rounding<'a>,
+    /// Whether ρ is one number by joint.
+    constant: bool,
 }
 
 impl<'a> Stage<'a> {
-    fn new(problem: &'a DesignProblem<'a>) -> Result<Self, Error> {
+    fn new(problem: &'a DesignProblem<'a>, constant: bool) -> Result<Self, Error> {
         let DesignProblem { control, arm, .. } = *problem;
         let disturbance = |joint: &crate::arm::Joint| {
             let [forwards, backwards] = joint.coulomb_friction;
@@ -193,12 +224,32 @@ impl<'a> Stage<'a> {
         let coulomb: Vec<[f64; 2]> = arm.joints.iter().map(coulomb).collect();
         Ok(Self {
             problem,
+            constant,
             feedforward: problem.motion.map(along),
             rounding: Rounding::new(problem, &coulomb),
             coulomb,
             adaptation: Adaptation::new(problem)?,
             disturbance: arm.joints.iter().map(disturbance).collect(),
         })
+    }
+
+    /// ρ by joint, N·m or N: what the model is off by at most for rates up to `rates`, which is no more than `gain`, or at
+    /// the measure's own rates where no level of V holds the errors. Friction counts with it.
+    fn constant_gain(&self, gain: &[f64], rates: Option<&Rates>) -> Vec<f64> {
+        let DesignProblem { bounds, declared, .. } = *self.problem;
+        let friction = |speed: &[f64], i: usize| bounds.b[i] * speed[i] + self.disturbance[i];
+        let known = rates.is_some();
+        let proved = match (rates, declared) {
+            (Some(rates), _) => Some(((self.problem.torque_error)(rates), rates)),
+            (None, declared) => declared.map(|torque| (torque.error.clone(), &torque.rates)),
+        };
+        let Some((error, rates)) = proved else { return gain.to_vec() };
+        let of = |(i, gain): (usize, &f64)| {
+            let enough = (error[i] + friction(&rates.speed, i)).next_up().next_up();
+            // Where a level of V holds, both are bounds at the same rates.
+            six_digits_up(if known { enough.min(*gain) } else { enough })
+        };
+        gain.iter().enumerate().map(of).collect()
     }
 
     /// The gain matrices of `tuning` and what they promise.
@@ -233,6 +284,7 @@ impl<'a> Stage<'a> {
             rounding: &self.rounding,
             tuning,
             adaptation: self.adaptation.as_ref(),
+            constant: self.constant,
             facts,
             sketch,
         }
@@ -242,6 +294,29 @@ impl<'a> Stage<'a> {
 }
 
 impl Design {
+    /// The step of this law about the model `code` with these `bounds`.
+    pub fn step(&self, model: &StepModel) -> StepGraph {
+        StepParts {
+            law: self.law,
+            gains: &self.gains,
+            robust_gain: &self.robust_gain,
+            coriolis_term: self.coriolis_term,
+            delta_c: &self.delta_c,
+            delta_c1: &self.delta_c1,
+            bounds: model.bounds,
+            disturbance: &self.disturbance,
+            boundary_layer: self.boundary_layer.as_deref(),
+            viscous: model.viscous,
+            coulomb: &self.coulomb,
+            torque_limit: &self.torque_limit,
+            period: self.period,
+            adaptation: self.adaptation.as_ref(),
+            code: model.code,
+            regressor: model.regressor,
+        }
+        .graph()
+    }
+
     /// True where everything that is computed is a finite number.
     pub fn is_finite(&self) -> bool {
         let Envelope { v_max, position_error, velocity_error, speed, level } = &self.envelope;

@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::literal::{count, float, matrix, vector};
 use super::{Module, constant, docs, spaced, unused};
-use crate::control::{Adaptation, Design};
+use crate::control::{Adaptation, Design, RobustGain};
 use crate::error::Error;
 use crate::motion::Motion;
 use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec};
@@ -32,6 +32,22 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
     };
     let period_max = some(promised.period_certified, float(promised.period_max)?);
     let final_error = some(promised.holds, vector(&promised.final_error)?);
+    let made = match module.step {
+        Some(step) => super::step::step(module, step, model)?,
+        None => quote! {
+            /// The controller: model, law and settings put together.
+            ///
+            /// # Errors
+            /// None as generated; names the parameter if a constant above was edited into an impossible one.
+            #unused
+            pub fn controller() -> ::core::result::Result<
+                ::gramforge_runtime::Controller<#model, ::gramforge_runtime::#law_type, #n>,
+                ::gramforge_runtime::ConfigError,
+            > {
+                ::gramforge_runtime::Controller::new(#model, LAW, SETTINGS)
+            }
+        },
+    };
     Ok(quote! {
         #(#[doc = #guaranteed_docs])*
         #unused
@@ -52,17 +68,7 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
         pub const LAW: ::gramforge_runtime::#law_type = #law;
         #reference
 
-        /// The controller: model, law and settings put together.
-        ///
-        /// # Errors
-        /// None as generated; names the parameter if a constant above was edited into an impossible one.
-        #unused
-        pub fn controller() -> ::core::result::Result<
-            ::gramforge_runtime::Controller<#model, ::gramforge_runtime::#law_type, #n>,
-            ::gramforge_runtime::ConfigError,
-        > {
-            ::gramforge_runtime::Controller::new(#model, LAW, SETTINGS)
-        }
+        #made
     })
 }
 
@@ -119,6 +125,16 @@ fn law(design: &Design) -> Result<(TokenStream, TokenStream), Error> {
         }))
     };
     Ok(match (design.law, &design.adaptation) {
+        (LawSpec::Report | LawSpec::Tight, _) if let RobustGain::Constant(gain) = &design.robust_gain => {
+            let gain = vector(gain)?;
+            let law = quote!(::gramforge_runtime::ConstantGainLaw {
+                gains: #gains,
+                robust_gain: #gain,
+                switching: #switching,
+                coulomb: #coulomb,
+            });
+            (quote!(ConstantGainLaw<f64, #n>), law)
+        }
         (LawSpec::Exact, _) => (
             quote!(ExactLaw<f64, #n>),
             quote!(::gramforge_runtime::ExactLaw { gains: #gains, coulomb: #coulomb }),

@@ -6,6 +6,7 @@ mod docs;
 mod literal;
 mod regression;
 mod statements;
+mod step;
 mod trig;
 mod type_name;
 
@@ -22,7 +23,7 @@ use quote::quote;
 
 use crate::arm::{Arm, Uncertainty};
 use crate::bounds::{Bounds, Met, Torque};
-use crate::control::Design;
+use crate::control::{Design, StepGraph};
 use crate::domain::Domain;
 use crate::error::Error;
 use crate::graph::Graph;
@@ -66,6 +67,8 @@ pub struct Module<'a> {
     pub motion: Option<&'a Motion>,
     /// The controller.
     pub design: Option<&'a Design>,
+    /// Its step, where it is written out.
+    pub step: Option<&'a StepGraph>,
 }
 
 /// The text of the module: a header of comments, constants, one model type, one trait impl.

@@ -64,6 +64,14 @@ pub(super) fn body(graph: &Graph) -> Result<TokenStream, Error> {
 ///
 /// Operators stand exactly as the graph has them: parentheses keep every rounding in its place.
 pub(super) fn parts(graph: &Graph) -> Result<(Vec<TokenStream>, Vec<TokenStream>), Error> {
+    parts_with(graph, &graph.outputs)
+}
+
+/// The same with the values of `wanted` in place of the graph's results.
+pub(super) fn parts_with(
+    graph: &Graph,
+    wanted: &[NodeId],
+) -> Result<(Vec<TokenStream>, Vec<TokenStream>), Error> {
     let uses = graph.uses();
     let mut names = Names::default();
     let mut statements = trigonometry(graph, &mut names)?;
@@ -82,7 +90,7 @@ pub(super) fn parts(graph: &Graph) -> Result<(Vec<TokenStream>, Vec<TokenStream>
         statements.push(quote!(let #ident = #tokens;));
         written.push(Written::atom(quote!(#ident)));
     }
-    Ok((statements, graph.outputs.iter().map(|&output| written[output].tokens.clone()).collect()))
+    Ok((statements, wanted.iter().map(|&output| written[output].tokens.clone()).collect()))
 }
 
 /// One call for each joint whose sine or cosine occurs.
@@ -124,6 +132,15 @@ fn write(graph: &Graph, node: Node, written: &[Written]) -> Result<Written, Erro
         let (slice, j) = (Ident::new(slice, Span::call_site()), literal::count(j));
         Written::atom(quote!(#slice[#j]))
     };
+    let desired = |slice: &str, j: usize| {
+        let (slice, j) = (Ident::new(slice, Span::call_site()), literal::count(j));
+        Written::atom(quote!(desired.#slice[#j]))
+    };
+    let called = |function: TokenStream, operands: &[NodeId]| {
+        let arguments = operands.iter().map(|&operand| &written[operand].tokens);
+        let operations = operands.iter().map(|&operand| written[operand].operations).sum::<usize>() + 1;
+        Written { tokens: quote!(#function(#(#arguments),*)), binding: Binding::Atom, operations }
+    };
     let constant = |id: NodeId| matches!(graph.nodes[id], Node::Constant(_));
     let joined = |a: NodeId, b: NodeId, binding: Binding, right: Binding, operator: TokenStream| {
         let (left, right) = (written[a].within(binding), written[b].within(right));
@@ -135,6 +152,10 @@ fn write(graph: &Graph, node: Node, written: &[Written]) -> Result<Written, Erro
         Node::Input(Variable::Qd(j)) => input("qd", j),
         Node::Input(Variable::Vr(j)) => input("v_r", j),
         Node::Input(Variable::Ar(j)) => input("a_r", j),
+        Node::Input(Variable::DesiredQ(j)) => desired("q", j),
+        Node::Input(Variable::DesiredQd(j)) => desired("qd", j),
+        Node::Input(Variable::DesiredQdd(j)) => desired("qdd", j),
+        Node::Input(Variable::Theta(k)) => input("theta", k),
         Node::Sin(j) => named_atom(format_ident!("sin_q{}", j + 1)),
         Node::Cos(j) => named_atom(format_ident!("cos_q{}", j + 1)),
         Node::Constant(bits) => {
@@ -159,6 +180,13 @@ fn write(graph: &Graph, node: Node, written: &[Written]) -> Result<Written, Erro
                 operations: written[a].operations + 1,
             }
         }
+        Node::Abs(a) => {
+            let operand = written[a].within(Binding::Atom);
+            let operations = written[a].operations + 1;
+            Written { tokens: quote!(#operand.abs()), binding: Binding::Atom, operations }
+        }
+        Node::Clamp(a, low, high) => called(quote!(clamp), &[a, low, high]),
+        Node::Select(a, above, below, otherwise) => called(quote!(select), &[a, above, below, otherwise]),
     })
 }
 

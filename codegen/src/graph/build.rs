@@ -1,15 +1,24 @@
-//! Building: operators on handles; folding and sharing happen as nodes are made.
+//! Building a graph: nodes are shared as they are made.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
-use std::ops::{Add, Mul, Neg, Sub};
 
 use super::node::{Name, Node, NodeId, Variable};
-use super::{Graph, Operations};
-use crate::dynamics::Scalar;
+use super::{Expr, Graph, Operations};
 use crate::lagrangian::{MAX_JOINTS, WHOLE};
 use crate::trig::Trig;
+
+/// What a graph begins with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Leaf {
+    /// An input.
+    Input(Variable),
+    /// sin q_j of a joint, from 0.
+    Sin(usize),
+    /// cos q_j.
+    Cos(usize),
+}
 
 /// Collects the nodes of a graph under construction.
 #[derive(Debug, Default)]
@@ -52,20 +61,6 @@ impl Hasher for Mixer {
     fn write_isize(&mut self, x: isize) {
         self.write_u64(x as u64);
     }
-}
-
-/// Handles of one graph are equal where they stand for the same node.
-impl PartialEq for Expr<'_> {
-    fn eq(&self, other: &Self) -> bool {
-        self.id == other.id
-    }
-}
-
-/// A handle on a node: copy it, add it, multiply it.
-#[derive(Clone, Copy, Debug)]
-pub struct Expr<'g> {
-    builder: &'g Builder,
-    id: NodeId,
 }
 
 impl Builder {
@@ -161,7 +156,43 @@ impl Builder {
         all().all(Node::is_finite).then(|| Operations::of(all(), &parts.unwrap_or(WHOLE)))
     }
 
-    fn intern(&self, node: Node) -> Expr<'_> {
+    /// The nodes of `graph` once more, with `leaf` in place of its inputs, sines and cosines; folded and shared anew. `name`
+    /// gives the new name of a node from the old one.
+    pub fn embed<'g>(
+        &'g self,
+        graph: &Graph,
+        mut leaf: impl FnMut(Leaf) -> Expr<'g>,
+        name: impl Fn(&str) -> Option<String>,
+    ) -> Vec<Expr<'g>> {
+        let mut new: Vec<Expr<'g>> = Vec::with_capacity(graph.nodes.len());
+        for (node, old) in graph.nodes.iter().zip(&graph.names) {
+            let value = match *node {
+                Node::Input(variable) => leaf(Leaf::Input(variable)),
+                Node::Sin(joint) => leaf(Leaf::Sin(joint)),
+                Node::Cos(joint) => leaf(Leaf::Cos(joint)),
+                Node::Constant(bits) => self.constant(f64::from_bits(bits)),
+                Node::Add(a, b) => new[a] + new[b],
+                Node::Sub(a, b) => new[a] - new[b],
+                Node::Mul(a, b) => new[a] * new[b],
+                Node::Neg(a) => -new[a],
+                Node::Abs(a) => new[a].abs(),
+                Node::Clamp(a, low, high) => new[a].clamp(new[low], new[high]),
+                Node::Select(a, above, below, otherwise) => {
+                    new[a].select(new[above], new[below], new[otherwise])
+                }
+            };
+            if let Some(old) = old
+                && !value.is_constant()
+                && let Some(text) = name(&old.text)
+            {
+                value.named(&text, old.own_line);
+            }
+            new.push(value);
+        }
+        new
+    }
+
+    pub(super) fn intern(&self, node: Node) -> Expr<'_> {
         let mut state = self.state.borrow_mut();
         let id = match state.known.get(&node) {
             Some(&id) => id,
@@ -173,166 +204,18 @@ impl Builder {
                 id
             }
         };
-        Expr { builder: self, id }
+        Expr::new(self, id)
     }
 
-    fn node(&self, id: NodeId) -> Node {
+    pub(super) fn node(&self, id: NodeId) -> Node {
         self.state.borrow().nodes[id]
-    }
-}
-
-impl<'g> Expr<'g> {
-    /// Index of the node, for [`Builder::finish`].
-    pub fn id(self) -> NodeId {
-        self.id
     }
 
     /// Names the node, unless it has a name already.
-    pub fn named(self, text: &str, own_line: bool) -> Self {
-        let mut state = self.builder.state.borrow_mut();
-        let slot = &mut state.names[self.id];
+    pub(super) fn name(&self, id: NodeId, text: &str, own_line: bool) {
+        let slot = &mut self.state.borrow_mut().names[id];
         if slot.is_none() {
             *slot = Some(Name { text: text.to_string(), own_line });
         }
-        drop(state);
-        self
-    }
-
-    /// k·x with the sign of `k` left in the constant, where `k * x` would take it out to share |k|·x.
-    pub fn scaled(self, k: f64) -> Self {
-        if self.is_constant() || k == 0.0 || k.abs() == 1.0 {
-            return self * self.constant(k);
-        }
-        let (a, b) = ordered(self.constant(k).id, self.id);
-        self.make(Node::Mul(a, b))
-    }
-
-    /// True for a constant.
-    pub fn is_constant(self) -> bool {
-        self.value().is_some()
-    }
-
-    fn node(self) -> Node {
-        self.builder.node(self.id)
-    }
-
-    fn value(self) -> Option<f64> {
-        match self.node() {
-            Node::Constant(bits) => Some(f64::from_bits(bits)),
-            _ => None,
-        }
-    }
-
-    /// The operand of a negation.
-    fn negated(self) -> Option<Self> {
-        match self.node() {
-            Node::Neg(id) => Some(Expr { id, ..self }),
-            _ => None,
-        }
-    }
-
-    fn make(self, node: Node) -> Self {
-        self.builder.intern(node)
-    }
-}
-
-/// `a + b` and `a · b` round alike in either order, so the smaller index goes first and both orders share.
-fn ordered(a: NodeId, b: NodeId) -> (NodeId, NodeId) {
-    (a.min(b), a.max(b))
-}
-
-impl Add for Expr<'_> {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        match (self.value(), other.value()) {
-            (Some(a), Some(b)) => return self.constant(a + b),
-            (Some(0.0), None) => return other,
-            (None, Some(0.0)) => return self,
-            (Some(a), None) if a < 0.0 => return other - self.constant(-a),
-            (None, Some(b)) if b < 0.0 => return self - self.constant(-b),
-            _ => {}
-        }
-        match (self.negated(), other.negated()) {
-            (Some(a), Some(b)) => -(a + b),
-            (Some(a), None) => other - a,
-            (None, Some(b)) => self - b,
-            (None, None) => {
-                let (a, b) = ordered(self.id, other.id);
-                self.make(Node::Add(a, b))
-            }
-        }
-    }
-}
-
-impl Sub for Expr<'_> {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        if self.id == other.id {
-            return self.constant(0.0);
-        }
-        match (self.value(), other.value()) {
-            (Some(a), Some(b)) => return self.constant(a - b),
-            (Some(0.0), None) => return -other,
-            (None, Some(0.0)) => return self,
-            (None, Some(b)) if b < 0.0 => return self + self.constant(-b),
-            _ => {}
-        }
-        match (self.negated(), other.negated()) {
-            (Some(a), Some(b)) => b - a,
-            (Some(a), None) => -(a + other),
-            (None, Some(b)) => self + b,
-            (None, None) => self.make(Node::Sub(self.id, other.id)),
-        }
-    }
-}
-
-impl Mul for Expr<'_> {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        match (self.value(), other.value()) {
-            (Some(a), Some(b)) => return self.constant(a * b),
-            (Some(_), None) => return other * self,
-            (None, Some(c)) => {
-                if c == 0.0 {
-                    return other;
-                } else if c == 1.0 {
-                    return self;
-                } else if c < 0.0 {
-                    // Positive constants alone, so that c·x and −c·x share.
-                    return -(self * self.constant(-c));
-                }
-            }
-            (None, None) => {}
-        }
-        match (self.negated(), other.negated()) {
-            (Some(a), Some(b)) => a * b,
-            (Some(a), None) => -(a * other),
-            (None, Some(b)) => -(self * b),
-            (None, None) => {
-                let (a, b) = ordered(self.id, other.id);
-                self.make(Node::Mul(a, b))
-            }
-        }
-    }
-}
-
-impl Neg for Expr<'_> {
-    type Output = Self;
-    fn neg(self) -> Self {
-        if let Some(x) = self.value() {
-            return self.constant(-x);
-        }
-        match self.node() {
-            Node::Neg(id) => Expr { id, ..self },
-            // −(a − b) is b − a to the last bit.
-            Node::Sub(a, b) => self.make(Node::Sub(b, a)),
-            _ => self.make(Node::Neg(self.id)),
-        }
-    }
-}
-
-impl Scalar for Expr<'_> {
-    fn constant(self, x: f64) -> Self {
-        self.builder.constant(x)
     }
 }

@@ -8,30 +8,38 @@ use crate::lagrangian::MAX_JOINTS;
 /// What one sine and cosine count for, in multiplications and additions.
 pub const TRIG_PAIR: usize = 12;
 
+/// What a clamp or a choice by a sign counts for: two comparisons.
+pub const CLAMP: usize = 2;
+/// What a division counts for.
+pub const DIVISION: usize = 5;
+
 /// Operations of one evaluation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Operations {
     /// Multiplications.
     pub mul: usize,
-    /// Additions, subtractions and negations.
+    /// Additions, subtractions, negations and absolute values.
     pub add: usize,
+    /// Numbers that are clamped, and choices by a sign.
+    pub other: usize,
+    /// Divisions.
+    pub div: usize,
     /// Joints of which sine or cosine is taken.
     pub trig_pairs: usize,
 }
 
 impl Operations {
-    /// Multiplications and additions together.
+    /// All but sines and cosines together.
     pub fn arithmetic(&self) -> usize {
-        self.mul + self.add
+        self.mul + self.add + self.other + self.div
     }
 
-    /// What code is compared by: multiplications and additions, with every pair of sine and cosine as [`TRIG_PAIR`].
+    /// What code is compared by: multiplications and additions, with every clamp, division and pair of sine and cosine as
+    /// [`CLAMP`], [`DIVISION`] and [`TRIG_PAIR`].
     pub fn cost(&self) -> usize {
-        self.arithmetic() + TRIG_PAIR * self.trig_pairs
+        self.mul + self.add + CLAMP * self.other + DIVISION * self.div + TRIG_PAIR * self.trig_pairs
     }
-}
 
-impl Operations {
     /// Those of `nodes`, where sines and cosines are of angles divided by `parts`.
     pub(super) fn of<'a>(nodes: impl Iterator<Item = &'a Node>, parts: &[u8; MAX_JOINTS]) -> Self {
         let mut count = Self::default();
@@ -39,7 +47,8 @@ impl Operations {
         for node in nodes {
             match *node {
                 Node::Mul(..) => count.mul += 1,
-                Node::Add(..) | Node::Sub(..) | Node::Neg(_) => count.add += 1,
+                Node::Add(..) | Node::Sub(..) | Node::Neg(_) | Node::Abs(_) => count.add += 1,
+                Node::Clamp(..) | Node::Select(..) => count.other += 1,
                 Node::Sin(joint) | Node::Cos(joint) if !turned.contains(&joint) => turned.push(joint),
                 Node::Sin(_) | Node::Cos(_) | Node::Input(_) | Node::Constant(_) => {}
             }

@@ -1,5 +1,7 @@
 //! Running a graph without compiling it, with the same bits as the generated code.
 
+use gramforge_runtime::step;
+
 use super::{Graph, Node, Variable};
 use crate::trig::Angle;
 
@@ -18,15 +20,35 @@ impl Graph {
     /// Every operation is rounded as the generated code rounds it; sines and cosines are those of
     /// [`Graph::sines`].
     pub fn interpret<T: Angle>(&self, q: &[T], qd: &[T], v_r: &[T], a_r: &[T]) -> Vec<T> {
-        let read = |slice: &[T], joint: usize| slice.get(joint).copied().unwrap_or(T::ZERO);
+        self.evaluate(q, |variable| match variable {
+            Variable::Q(j) => q.get(j),
+            Variable::Qd(j) => qd.get(j),
+            Variable::Vr(j) => v_r.get(j),
+            Variable::Ar(j) => a_r.get(j),
+            _ => None,
+        })
+    }
+
+    /// The outputs of a control step, likewise; `desired` are q_d, q̇_d and q̈_d, `theta` what the law has learnt.
+    pub fn interpret_step<T: Angle>(&self, q: &[T], qd: &[T], desired: [&[T]; 3], theta: &[T]) -> Vec<T> {
+        let [q_d, qd_d, qdd_d] = desired;
+        self.evaluate(q, |variable| match variable {
+            Variable::Q(j) => q.get(j),
+            Variable::Qd(j) => qd.get(j),
+            Variable::DesiredQ(j) => q_d.get(j),
+            Variable::DesiredQd(j) => qd_d.get(j),
+            Variable::DesiredQdd(j) => qdd_d.get(j),
+            Variable::Theta(k) => theta.get(k),
+            Variable::Vr(_) | Variable::Ar(_) => None,
+        })
+    }
+
+    fn evaluate<'a, T: Angle>(&self, q: &[T], read: impl Fn(Variable) -> Option<&'a T>) -> Vec<T> {
         let trig = self.turned(q);
         let mut values: Vec<T> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
             let value = match *node {
-                Node::Input(Variable::Q(j)) => read(q, j),
-                Node::Input(Variable::Qd(j)) => read(qd, j),
-                Node::Input(Variable::Vr(j)) => read(v_r, j),
-                Node::Input(Variable::Ar(j)) => read(a_r, j),
+                Node::Input(variable) => read(variable).copied().unwrap_or(T::ZERO),
                 Node::Sin(j) => trig.get(j).map_or(T::ZERO, |pair| pair.0),
                 Node::Cos(j) => trig.get(j).map_or(T::ONE, |pair| pair.1),
                 Node::Constant(bits) => T::from_f64(f64::from_bits(bits)),
@@ -34,6 +56,11 @@ impl Graph {
                 Node::Sub(a, b) => values[a] - values[b],
                 Node::Mul(a, b) => values[a] * values[b],
                 Node::Neg(a) => -values[a],
+                Node::Abs(a) => values[a].abs(),
+                Node::Clamp(a, low, high) => step::clamp(values[a], values[low], values[high]),
+                Node::Select(a, above, below, otherwise) => {
+                    step::select(values[a], values[above], values[below], values[otherwise])
+                }
             };
             values.push(value);
         }

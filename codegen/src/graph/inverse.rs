@@ -1,6 +1,6 @@
 //! Plain inverse dynamics: the torque along the joints' own velocities.
 
-use super::{Builder, Expr, Graph, Node, Variable};
+use super::{Builder, Graph, Leaf, Variable};
 
 impl Graph {
     /// The graph with q̇ in place of v_r: D(q) a_r + C(q, q̇) q̇ + G(q), which other generators call inverse dynamics.
@@ -10,24 +10,13 @@ impl Graph {
     pub fn inverse_dynamics(&self) -> Graph {
         let builder = Builder::new();
         builder.divide(self.parts);
-        let mut new: Vec<Expr<'_>> = Vec::with_capacity(self.nodes.len());
-        for (node, name) in self.nodes.iter().zip(&self.names) {
-            let expression = match *node {
-                Node::Input(Variable::Vr(joint)) => builder.input(Variable::Qd(joint)),
-                Node::Input(variable) => builder.input(variable),
-                Node::Sin(joint) => builder.sin_cos(joint).0,
-                Node::Cos(joint) => builder.sin_cos(joint).1,
-                Node::Constant(bits) => builder.constant(f64::from_bits(bits)),
-                Node::Add(a, b) => new[a] + new[b],
-                Node::Sub(a, b) => new[a] - new[b],
-                Node::Mul(a, b) => new[a] * new[b],
-                Node::Neg(a) => -new[a],
-            };
-            if let Some(name) = name {
-                expression.named(&name.text, name.own_line);
-            }
-            new.push(expression);
-        }
+        let leaf = |leaf| match leaf {
+            Leaf::Input(Variable::Vr(joint)) => builder.input(Variable::Qd(joint)),
+            Leaf::Input(variable) => builder.input(variable),
+            Leaf::Sin(joint) => builder.sin_cos(joint).0,
+            Leaf::Cos(joint) => builder.sin_cos(joint).1,
+        };
+        let new = builder.embed(self, leaf, |name| Some(name.to_string()));
         let outputs: Vec<_> = self.outputs.iter().map(|&output| new[output].id()).collect();
         Graph { sines: self.sines.clone(), ..builder.finish(&outputs).factored() }
     }

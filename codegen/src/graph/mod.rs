@@ -3,6 +3,7 @@
 
 mod build;
 mod count;
+mod expr;
 mod factor;
 mod interpret;
 mod inverse;
@@ -11,8 +12,9 @@ mod slopes;
 #[cfg(test)]
 mod tests;
 
-pub use build::{Builder, Expr};
+pub use build::{Builder, Leaf};
 pub use count::{Operations, TRIG_PAIR};
+pub use expr::Expr;
 pub use node::{Name, Node, NodeId, Variable};
 use serde::{Deserialize, Serialize};
 

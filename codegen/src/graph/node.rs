@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// Index of a node in its graph.
 pub type NodeId = usize;
 
-/// An input of the passivity torque; joints from 0.
+/// An input of the passivity torque, or of a whole control step; joints from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Variable {
     /// Joint position q_j, rad or m.
@@ -16,6 +16,14 @@ pub enum Variable {
     Vr(usize),
     /// Reference acceleration a_r,j.
     Ar(usize),
+    /// Desired position q_d,j, rad or m.
+    DesiredQ(usize),
+    /// Desired velocity q̇_d,j.
+    DesiredQd(usize),
+    /// Desired acceleration q̈_d,j.
+    DesiredQdd(usize),
+    /// What a law has learnt of parameter k, θ̂_k.
+    Theta(usize),
 }
 
 /// One operation or leaf. Constants are kept by their bits, so that nodes can be compared.
@@ -37,17 +45,26 @@ pub enum Node {
     Mul(NodeId, NodeId),
     /// −a.
     Neg(NodeId),
+    /// |a|.
+    Abs(NodeId),
+    /// a, no less than the second and no more than the third; NaN stays NaN.
+    Clamp(NodeId, NodeId, NodeId),
+    /// Chosen by the sign of the first: the second where it is above 0, the third where it is below, and the fourth where it
+    /// is 0 or NaN.
+    Select(NodeId, NodeId, NodeId, NodeId),
 }
 
 impl Node {
-    /// The operands, none to two.
+    /// The operands, none to four.
     pub fn operands(&self) -> impl Iterator<Item = NodeId> + use<> {
-        let (first, second) = match *self {
-            Node::Add(a, b) | Node::Sub(a, b) | Node::Mul(a, b) => (Some(a), Some(b)),
-            Node::Neg(a) => (Some(a), None),
-            Node::Input(_) | Node::Sin(_) | Node::Cos(_) | Node::Constant(_) => (None, None),
+        let operands = match *self {
+            Node::Add(a, b) | Node::Sub(a, b) | Node::Mul(a, b) => [Some(a), Some(b), None, None],
+            Node::Neg(a) | Node::Abs(a) => [Some(a), None, None, None],
+            Node::Clamp(a, low, high) => [Some(a), Some(low), Some(high), None],
+            Node::Select(a, above, below, otherwise) => [Some(a), Some(above), Some(below), Some(otherwise)],
+            Node::Input(_) | Node::Sin(_) | Node::Cos(_) | Node::Constant(_) => [None; 4],
         };
-        first.into_iter().chain(second)
+        operands.into_iter().flatten()
     }
 
     /// False for a constant that is no finite number.
@@ -65,6 +82,11 @@ impl Node {
             Node::Sub(a, b) => Node::Sub(new(a), new(b)),
             Node::Mul(a, b) => Node::Mul(new(a), new(b)),
             Node::Neg(a) => Node::Neg(new(a)),
+            Node::Abs(a) => Node::Abs(new(a)),
+            Node::Clamp(a, low, high) => Node::Clamp(new(a), new(low), new(high)),
+            Node::Select(a, above, below, otherwise) => {
+                Node::Select(new(a), new(above), new(below), new(otherwise))
+            }
             leaf => leaf,
         }
     }

@@ -20,6 +20,7 @@ impl Graph {
                         Variable::Qd(j) => read(qd, j),
                         Variable::Vr(j) => read(v_r, j),
                         Variable::Ar(j) => read(a_r, j),
+                        _ => 0.0,
                     };
                     (value, if variable == x { 1.0 } else { 0.0 })
                 }
@@ -30,6 +31,8 @@ impl Graph {
                 Node::Sub(a, b) => (all[a].0 - all[b].0, all[a].1 - all[b].1),
                 Node::Mul(a, b) => (all[a].0 * all[b].0, all[a].1 * all[b].0 + all[a].0 * all[b].1),
                 Node::Neg(a) => (-all[a].0, -all[a].1),
+                // No torque of a model bends: these belong to laws.
+                Node::Abs(a) | Node::Clamp(a, ..) | Node::Select(a, ..) => (all[a].0, f64::NAN),
             };
             all.push(pair);
         }

@@ -9,7 +9,7 @@ use crate::arm::{Arm, Uncertainty};
 use crate::bounds::{Bounds, Certificate, Effort, Met, Torque};
 use crate::cache::Cache;
 use crate::check::{Checked, Control, Extent, read};
-use crate::control::Design;
+use crate::control::{Design, StepGraph};
 use crate::domain::Domain;
 use crate::emit::{Module, emit};
 use crate::error::Error;
@@ -20,7 +20,7 @@ use crate::model::Model;
 use crate::motion::Motion;
 use crate::progress::{Progress, Silent, Stage};
 use crate::reduction::{Reduced, Regression};
-use crate::spec::Spec;
+use crate::spec::{LawCodeSpec, Spec};
 use crate::torque::{Form, Regressor};
 
 /// Everything that follows from one specification; read-only.
@@ -117,6 +117,7 @@ impl Generation {
             exact_code: self.exact_code(),
             motion: self.motion(),
             design: self.design(),
+            step: self.step().filter(|_| self.spec().emit.law == LawCodeSpec::Inline),
         })
     }
 
@@ -229,6 +230,11 @@ impl Generation {
     /// The controller; `None` where there is none, or where only the model was asked for.
     pub fn design(&self) -> Option<&Design> {
         self.designed.design.as_ref()
+    }
+
+    /// The controller's step, law and model as one graph; `None` without a controller.
+    pub fn step(&self) -> Option<&StepGraph> {
+        self.designed.step.as_ref()
     }
 
     /// The parameters of a law that learns; `None` for the other laws.

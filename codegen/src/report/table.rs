@@ -134,7 +134,10 @@ mod tests {
 
     #[test]
     fn operations_are_summed() {
-        let text = operations_table(&[("exact", Operations { mul: 60, add: 40, trig_pairs: 3 })]);
+        let text = operations_table(&[(
+            "exact",
+            Operations { mul: 60, add: 40, trig_pairs: 3, ..Operations::default() },
+        )]);
         assert!(
             text.lines().nth(2).is_some_and(|l| l.split_whitespace().eq(["exact", "60", "40", "100", "3"]))
         );

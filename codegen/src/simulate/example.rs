@@ -14,7 +14,7 @@ use crate::graph::Graph;
 use crate::lagrangian::expand;
 use crate::motion::Motion;
 use crate::reduction::shared;
-use crate::spec::{AdaptationSpec, CoriolisTermSpec, LawSpec, OnFaultSpec, SimulationSpec};
+use crate::spec::{AdaptationSpec, CoriolisTermSpec, LawSpec, OnFaultSpec, RobustGainSpec, SimulationSpec};
 use crate::torque::{expanded, recursive};
 
 /// A link: α (quarter turns), a, d, mass, diagonal of the pseudo-inertia, first moment, in its standard frame.
@@ -80,6 +80,7 @@ impl Example {
             initial_error: InitialError { position: vec![error; n], velocity: vec![0.0; n] },
             coriolis_term: CoriolisTermSpec::Matrix,
             delta_c1: None,
+            robust_gain: RobustGainSpec::State,
             adaptation: AdaptationSpec::default(),
             allow_long_period: true,
             require_guarantee: false,
@@ -87,22 +88,27 @@ impl Example {
             on_fault: OnFaultSpec::Hold,
         };
         let rounding = recursion_rounding(&arm, &position_bound(&tube));
-        let design = design(&DesignProblem {
-            file: Path::new("example.json"),
-            control: &control,
-            arm: &arm,
-            given: (&arm, &Uncertainty::default()),
-            angles: None,
-            lagrangian: &lagrangian,
-            bounds: &bounds,
-            rounding: &rounding,
-            domain: &tube,
-            motion: Some(&motion),
-            uncertainty: &Uncertainty::default(),
-            regression: None,
-            seek_tube: false,
-            progress: &crate::progress::Silent,
-        })
+        let design = design(
+            &DesignProblem {
+                file: Path::new("example.json"),
+                control: &control,
+                arm: &arm,
+                given: (&arm, &Uncertainty::default()),
+                angles: None,
+                lagrangian: &lagrangian,
+                bounds: &bounds,
+                rounding: &rounding,
+                domain: &tube,
+                motion: Some(&motion),
+                uncertainty: &Uncertainty::default(),
+                regression: None,
+                seek_tube: false,
+                torque_error: &|rates| bounds.torque(rates),
+                declared: None,
+                progress: &crate::progress::Silent,
+            },
+            false,
+        )
         .unwrap();
         let initial = control.initial_error;
         Self { arm, motion, design, code, bounds, initial, simulation: SimulationSpec::default() }

@@ -9,31 +9,34 @@ mod metrics;
 mod models;
 mod reference;
 mod run;
+mod step_law;
 
 use std::path::Path;
 
-use gramforge_runtime::law::{AdaptiveLaw, CoriolisTerm, ExactLaw, Gains, ReportLaw, Switching, TightLaw};
+use gramforge_runtime::law::{ExactLaw, Gains};
 use gramforge_runtime::simulate::JointState;
 use gramforge_runtime::{ConfigError, OnFault, Settings};
 use serde::Serialize;
 
 pub use metrics::{CONVERGED, Metrics};
-pub use models::{ArmModel, GraphModel, LearningModel, MOST_LEARNT};
+pub use models::{ArmModel, GraphModel};
 pub use run::{Run, Trace};
+pub use step_law::MOST_LEARNT;
 
 use self::array::{matrix, vector};
 use self::reference::MotionReference;
 use self::run::Rig;
+use self::step_law::StepLaw;
 use crate::arm::Arm;
 use crate::bounds::Bounds;
 use crate::check::InitialError;
-use crate::control::{Adaptation, Design};
+use crate::control::{Design, StepModel};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::motion::Motion;
 use crate::number::scientific;
 use crate::pipeline::Generation;
-use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec, SimulationSpec};
+use crate::spec::{LawSpec, OnFaultSpec, SimulationSpec};
 use crate::torque::Regressor;
 
 /// Runge–Kutta steps a control period, where the specification names none.
@@ -144,37 +147,22 @@ fn compare<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Compariso
     let own = GraphModel::<N>::exact(scenario.exact, arm)?;
     let model = GraphModel::<N>::new(scenario.code, scenario.bounds, arm)?;
     let plain = ExactLaw { gains: rig.gains, coulomb: vector("Coulomb friction", &design.coulomb)? };
-    let robust = ReportLaw {
-        gains: rig.gains,
-        delta_c: matrix("ΔC", &design.delta_c)?,
-        coriolis_term: match design.coriolis_term {
-            CoriolisTermSpec::Matrix => CoriolisTerm::Matrix(matrix("ΔC1", &design.delta_c1)?),
-            CoriolisTermSpec::Switching => CoriolisTerm::Switching,
-        },
-        disturbance: vector("the disturbance", &design.disturbance)?,
-        switching: match &design.boundary_layer {
-            Some(phi) => Switching::BoundaryLayer(vector("the boundary layer", phi)?),
-            None => Switching::Sign,
-        },
-        coulomb: plain.coulomb,
-    };
-    let ReportLaw { gains, disturbance, switching, coulomb, .. } = robust;
-    let tight = TightLaw { gains, disturbance, switching, coulomb };
-    let learning = match (scenario.regressor, &design.adaptation) {
-        (Some(regressor), Some(adaptation)) => Some((regressor, learning(file, adaptation, robust)?)),
-        _ => None,
-    };
-    let (exact, law) = rayon::join(
-        || rig.run(own, plain, 0),
-        || match (design.law, learning) {
-            (LawSpec::Exact, _) => rig.run(model, plain, 0),
-            (LawSpec::Tight, _) => rig.run(model, tight, 0),
-            (LawSpec::Adaptive, Some((regressor, law))) => {
-                rig.run(LearningModel { own: model, regressor }, law, regressor.parameters)
-            }
-            (LawSpec::Report | LawSpec::Adaptive, _) => rig.run(model, robust, 0),
-        },
-    );
+    let viscous: Vec<f64> = arm.joints.iter().map(|joint| joint.viscous_friction).collect();
+    let step = design.step(&StepModel {
+        code: scenario.code,
+        regressor: scenario.regressor,
+        bounds: scenario.bounds,
+        viscous: &viscous,
+    });
+    let adaptation = design.adaptation.as_ref();
+    let learnt = adaptation.map_or(0, |adaptation| adaptation.rate.len());
+    if learnt > MOST_LEARNT {
+        let help = "learn the `uncertain` parameters";
+        let problem = format!("are {learnt}; a simulation bears {MOST_LEARNT}");
+        return Err(Error::input(file, "control.adaptation.parameters", problem, help));
+    }
+    let law = StepLaw::new(&step, adaptation.map_or(&[], |adaptation| &adaptation.initial));
+    let (exact, law) = rayon::join(|| rig.run(own, plain, 0), || rig.run(model, law, learnt));
     let refuse = |error: ConfigError| {
         let help = "correct the number of the control or simulation section that it comes from";
         Error::input(file, "control", error.to_string(), help)
@@ -184,29 +172,6 @@ fn compare<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Compariso
         law: law.map_err(refuse)?,
         law_kind: design.law,
         boundary_layer: design.boundary_layer.clone(),
-    })
-}
-
-/// The adaptive law, with parameters that have no effect added up to [`MOST_LEARNT`].
-fn learning<const N: usize>(
-    file: &Path,
-    adaptation: &Adaptation,
-    robust: ReportLaw<f64, N>,
-) -> Result<AdaptiveLaw<f64, N, MOST_LEARNT>, Error> {
-    let count = adaptation.rate.len();
-    if count > MOST_LEARNT {
-        let help = "learn the `uncertain` parameters";
-        let problem = format!("are {count}; a simulation bears {MOST_LEARNT}");
-        return Err(Error::input(file, "control.adaptation.parameters", problem, help));
-    }
-    let padded = |values: &[f64], rest: f64| std::array::from_fn(|k| values.get(k).copied().unwrap_or(rest));
-    let Adaptation { rate, low, high, initial, .. } = adaptation;
-    Ok(AdaptiveLaw {
-        robust,
-        rate: padded(rate, 1.0),
-        low: padded(low, 0.0),
-        high: padded(high, 0.0),
-        initial: padded(initial, 0.0),
     })
 }
 

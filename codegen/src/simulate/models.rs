@@ -2,7 +2,7 @@
 
 use std::array::from_fn;
 
-use gramforge_runtime::{AdaptiveModel, Bounds as RuntimeBounds, Model, Regression};
+use gramforge_runtime::{Bounds as RuntimeBounds, Model};
 
 use super::array::{cube, matrix, vector};
 use crate::arm::Arm;
@@ -10,7 +10,6 @@ use crate::bounds::Bounds;
 use crate::dynamics;
 use crate::error::Error;
 use crate::graph::Graph;
-use crate::torque::Regressor;
 
 /// The exact model of an arm with `N` joints, by the Newton–Euler recursion: zero bounds.
 #[derive(Clone, Copy, Debug)]
@@ -101,53 +100,6 @@ impl<const N: usize> Model<N> for GraphModel<'_, N> {
 
     fn bounds(&self) -> &RuntimeBounds<f64, N> {
         &self.bounds
-    }
-}
-
-/// Most parameters of a law that learns in a simulation; fewer are padded with ones that have no effect.
-pub const MOST_LEARNT: usize = 512;
-
-/// A model with the parameters that its law learns, both in the form of expression graphs.
-#[derive(Clone, Copy, Debug)]
-pub struct LearningModel<'a, const N: usize> {
-    /// The model at the arm's own parameters.
-    pub own: GraphModel<'a, N>,
-    /// Base and Y.
-    pub regressor: &'a Regressor,
-}
-
-impl<const N: usize> Model<N> for LearningModel<'_, N> {
-    type Scalar = f64;
-
-    fn passivity_torque(&self, q: &[f64; N], qd: &[f64; N], v_r: &[f64; N], a_r: &[f64; N]) -> [f64; N] {
-        self.own.passivity_torque(q, qd, v_r, a_r)
-    }
-
-    fn viscous_friction(&self) -> [f64; N] {
-        self.own.viscous_friction()
-    }
-
-    fn bounds(&self) -> &RuntimeBounds<f64, N> {
-        self.own.bounds()
-    }
-}
-
-impl<const N: usize> AdaptiveModel<N, MOST_LEARNT> for LearningModel<'_, N> {
-    fn regression(
-        &self,
-        q: &[f64; N],
-        qd: &[f64; N],
-        v_r: &[f64; N],
-        a_r: &[f64; N],
-    ) -> Regression<f64, N, MOST_LEARNT> {
-        let outputs = self.regressor.code.interpret(q, qd, v_r, a_r);
-        let mut rows = outputs.chunks(N).map(exactly::<N>);
-        let base = if self.regressor.own_base {
-            self.own.passivity_torque(q, qd, v_r, a_r)
-        } else {
-            rows.next().unwrap_or([f64::NAN; N])
-        };
-        Regression { base, columns: from_fn(|_| rows.next().unwrap_or([0.0; N])) }
     }
 }
 

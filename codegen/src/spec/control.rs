@@ -40,6 +40,9 @@ pub struct ControlSpec {
     /// ΔC1 of equation (34), N·m·s/rad: symmetric, and verified to outweigh every |δC| ≤ ΔC. Default: k*·I.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub delta_c1: Option<MatrixSpec>,
+    /// What a robust law switches with. Default: `auto`.
+    #[serde(default, skip_serializing_if = "RobustGainSpec::is_default")]
+    pub robust_gain: RobustGainSpec,
     /// Largest initial error.
     #[serde(default)]
     pub initial_error: InitialErrorSpec,
@@ -109,6 +112,27 @@ pub enum CoriolisTermSpec {
     Switching,
 }
 
+/// What a robust law switches with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum RobustGainSpec {
+    /// The law's own bracket, at the state of the instant.
+    State,
+    /// One number by joint: what the model can be off by at most while the errors stay below their bounds.
+    Constant,
+    /// Of both the one whose step takes fewer operations among those whose guarantee holds, or of all where none holds.
+    #[default]
+    Auto,
+}
+
+impl RobustGainSpec {
+    /// True for what an absent field means.
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
 /// What the controller commands when a measurement is not finite.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -146,6 +170,11 @@ impl LawSpec {
     /// Whether the law outweighs what its model leaves out.
     pub fn is_robust(self) -> bool {
         self != LawSpec::Exact
+    }
+
+    /// Whether ρ can be the law's own or a constant.
+    pub fn has_choice(self) -> bool {
+        matches!(self, Self::Report | Self::Tight)
     }
 
     /// Whether the law has the bracket of equation (34).

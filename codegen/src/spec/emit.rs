@@ -13,6 +13,28 @@ pub struct EmitSpec {
     /// How sines and cosines are taken.
     #[serde(default, skip_serializing_if = "TrigSpec::is_default")]
     pub trig: TrigSpec,
+    /// How the law is written.
+    #[serde(default, skip_serializing_if = "LawCodeSpec::is_default")]
+    pub law: LawCodeSpec,
+}
+
+/// How the generated module holds the tracking law.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum LawCodeSpec {
+    /// Written out together with the model as one step, its constants folded.
+    #[default]
+    Inline,
+    /// As constants of a law of the runtime, whose gains a program can change while it runs.
+    Runtime,
+}
+
+impl LawCodeSpec {
+    /// True for what an absent field means.
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// How the generated code takes sines and cosines; the error counts in the bounds.

@@ -2,7 +2,7 @@
 
 use super::harmonics::{Harmonics, sum};
 use crate::arm::{Arm, JointKind, Linkage};
-use crate::graph::{Builder, Expr, Graph, Node, Variable};
+use crate::graph::{Builder, Expr, Graph, Leaf, Variable};
 
 /// The graph `chain` of the joints behind `arm` with their positions and rates made of its coordinates', its torques τ'
 /// gathered to Jᵀ τ', and the armature of the coordinates added.
@@ -10,25 +10,14 @@ pub(super) fn coupled(arm: &Arm, linkage: &Linkage, chain: &Graph) -> Graph {
     let builder = Builder::new();
     let mut leaves =
         Leaves { harmonics: Harmonics::of_parts(&builder, arm.parts()), builder: &builder, arm, linkage };
-    let mut made: Vec<Expr> = Vec::with_capacity(chain.nodes.len());
-    for (node, name) in chain.nodes.iter().zip(&chain.names) {
-        let value = match *node {
-            Node::Input(variable) => leaves.input(variable),
-            Node::Sin(i) => leaves.turn(i).0,
-            Node::Cos(i) => leaves.turn(i).1,
-            Node::Constant(bits) => builder.constant(f64::from_bits(bits)),
-            Node::Add(a, b) => made[a] + made[b],
-            Node::Sub(a, b) => made[a] - made[b],
-            Node::Mul(a, b) => made[a] * made[b],
-            Node::Neg(a) => -made[a],
-        };
-        // The torques get names of their own below.
-        if let Some(name) = name.as_ref().filter(|name| !name.text.starts_with("tau") && !value.is_constant())
-        {
-            value.named(&format!("chain_{}", name.text), name.own_line);
-        }
-        made.push(value);
-    }
+    let leaf = |leaf| match leaf {
+        Leaf::Input(variable) => leaves.input(variable),
+        Leaf::Sin(i) => leaves.turn(i).0,
+        Leaf::Cos(i) => leaves.turn(i).1,
+    };
+    // The torques get names of their own below.
+    let name = |name: &str| (!name.starts_with("tau")).then(|| format!("chain_{name}"));
+    let made = builder.embed(chain, leaf, name);
     let mut torques: Vec<Expr> = arm
         .joints
         .iter()
@@ -60,6 +49,8 @@ impl<'g> Leaves<'_, 'g> {
             Variable::Qd(i) => (i, Variable::Qd),
             Variable::Vr(i) => (i, Variable::Vr),
             Variable::Ar(i) => (i, Variable::Ar),
+            // No torque of a model has other inputs.
+            other => return self.builder.input(other),
         };
         let coupling = &self.linkage.couplings[i];
         let scaled = self.builder.constant(coupling.multiplier) * self.builder.input(of(coupling.coordinate));

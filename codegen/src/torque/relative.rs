@@ -32,6 +32,10 @@ impl<'g> RelativeTo<'g, '_> {
             Variable::Qd(_) => "qd",
             Variable::Vr(_) => "v_r",
             Variable::Ar(_) => "a_r",
+            // Laws alone read these.
+            Variable::DesiredQ(_) | Variable::DesiredQd(_) | Variable::DesiredQdd(_) | Variable::Theta(_) => {
+                "desired"
+            }
         };
         let sum = own + signed(self.sign(j) < 0, before);
         sum.named(&self.name(format!("{name}{}", j + 1)), true)

@@ -4,6 +4,7 @@
 //! [`Law::State`].
 
 mod adaptive;
+mod constant;
 mod coriolis_term;
 mod exact;
 mod gains;
@@ -16,6 +17,7 @@ mod tight;
 mod tracking;
 
 pub use adaptive::AdaptiveLaw;
+pub use constant::ConstantGainLaw;
 pub use coriolis_term::CoriolisTerm;
 pub use exact::ExactLaw;
 pub use gains::Gains;

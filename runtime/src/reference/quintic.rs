@@ -23,8 +23,16 @@ impl<T: Real, const N: usize> Reference<T, N> for QuinticReference<T, N> {
         self.duration
     }
 
+    #[inline]
     fn at(&self, t: T) -> Desired<T, N> {
-        Desired::from_joints(from_fn(|i| quintic(self.from[i], self.to[i], self.duration, t)))
+        // What the joints share is computed once.
+        let shape = Shape::at(self.duration, t);
+        let span = |i: usize| self.to[i] - self.from[i];
+        Desired {
+            q: if shape.arrived { self.to } else { from_fn(|i| self.from[i] + span(i) * shape.position) },
+            qd: from_fn(|i| span(i) * shape.velocity),
+            qdd: from_fn(|i| span(i) * shape.acceleration),
+        }
     }
 
     fn check(&self) -> Result<(), ConfigError> {
@@ -38,21 +46,48 @@ impl<T: Real, const N: usize> Reference<T, N> for QuinticReference<T, N> {
 ///
 /// By Horner's rule; the error is a few units in the last place of |from| + |to|, and of the peak of q̇ and q̈.
 pub fn quintic<T: Real>(from: T, to: T, duration: T, t: T) -> (T, T, T) {
-    if t <= T::ZERO {
-        return (from, T::ZERO, T::ZERO);
+    Shape::at(duration, t).between(from, to)
+}
+
+/// The motion from 0 to 1.
+struct Shape<T> {
+    position: T,
+    velocity: T,
+    acceleration: T,
+    arrived: bool,
+}
+
+impl<T: Real> Shape<T> {
+    #[inline]
+    fn at(duration: T, t: T) -> Self {
+        let still = |position, arrived| Self { position, velocity: T::ZERO, acceleration: T::ZERO, arrived };
+        if t <= T::ZERO {
+            return still(T::ZERO, false);
+        }
+        if t >= duration {
+            return still(T::ONE, true);
+        }
+        let c = T::from_f64;
+        // A constant where the duration is one: no division is left.
+        let rate = T::ONE / duration;
+        let x = t * rate;
+        // The factored forms vanish exactly at x = 1 as well as at 0.
+        let rest = T::ONE - x;
+        Self {
+            position: x * x * x * (c(10.0) + x * (c(6.0) * x - c(15.0))),
+            velocity: c(30.0) * rate * (x * x) * (rest * rest),
+            acceleration: c(60.0) * (rate * rate) * x * rest * (rest - x),
+            arrived: false,
+        }
     }
-    if t >= duration {
-        return (to, T::ZERO, T::ZERO);
+
+    #[inline]
+    fn between(&self, from: T, to: T) -> (T, T, T) {
+        let span = to - from;
+        // from + span may be off `to` by rounding.
+        let position = if self.arrived { to } else { from + span * self.position };
+        (position, span * self.velocity, span * self.acceleration)
     }
-    let c = T::from_f64;
-    let x = t / duration;
-    let span = to - from;
-    let position = x * x * x * (c(10.0) + x * (c(6.0) * x - c(15.0)));
-    // The factored forms vanish exactly at x = 1 as well as at 0.
-    let rest = T::ONE - x;
-    let velocity = c(30.0) * (x * x) * (rest * rest);
-    let acceleration = c(60.0) * x * rest * (rest - x);
-    (from + span * position, span * velocity / duration, span * acceleration / (duration * duration))
 }
 
 #[cfg(test)]

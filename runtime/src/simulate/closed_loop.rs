@@ -1,9 +1,8 @@
 //! A plant under a sampled controller.
 
 use super::{JointState, Plant, rk4_step};
-use crate::law::Law;
 use crate::{
-    Command, ConfigError, Controller, Desired, Fault, Model, PlantError, Real, Reference, Requirement,
+    Command, ConfigError, Desired, Fault, PlantError, Real, Reference, Requirement, TorqueController,
 };
 
 /// A plant with its state and clock. The caller loops, one control period at a time, and observes.
@@ -77,15 +76,11 @@ impl<T: Real, P: Plant<T, N>, const N: usize> Simulation<P, T, N> {
     ///
     /// # Errors
     /// As [`advance`](Simulation::advance).
-    pub fn step<M, L>(
+    pub fn step(
         &mut self,
-        controller: &mut Controller<M, L, N>,
+        controller: &mut impl TorqueController<N, Scalar = T>,
         reference: &impl Reference<T, N>,
-    ) -> Result<Record<T, N>, PlantError>
-    where
-        M: Model<N, Scalar = T>,
-        L: Law<M, N>,
-    {
+    ) -> Result<Record<T, N>, PlantError> {
         let (time, state) = (self.time(), self.state);
         let desired = reference.at(time);
         let command = controller.step(&state.q, &state.qd, &desired);

@@ -14,9 +14,9 @@ fn halt(_: &PanicInfo) -> ! {
     loop {}
 }
 
-/// One step of the control loop; zeros where the generated numbers were edited into impossible ones.
+/// One step of the control loop.
 pub fn step(q: &[f64; 6], qd: &[f64; 6], t: f64) -> [f64; 6] {
-    let Ok(mut controller) = puma::controller() else { return [0.0; 6] };
+    let mut controller = puma::controller();
     match controller.step(q, qd, &puma::REFERENCE.at(t)) {
         Ok(command) => command.torque,
         Err(fault) => fault.command,
@@ -25,12 +25,12 @@ pub fn step(q: &[f64; 6], qd: &[f64; 6], t: f64) -> [f64; 6] {
 
 /// One step of a law that learns, from what it had learnt; what it has learnt then.
 pub fn learn(theta: &mut [f64; arm3_adaptive::PARAMETERS], q: &[f64; 3], qd: &[f64; 3], t: f64) -> [f64; 3] {
-    let Ok(mut controller) = arm3_adaptive::controller() else { return [0.0; 3] };
+    let mut controller = arm3_adaptive::controller();
     controller.restore(*theta);
     let torque = match controller.step(q, qd, &arm3_adaptive::REFERENCE.at(t)) {
         Ok(command) => command.torque,
         Err(fault) => fault.command,
     };
-    *theta = *controller.law_state();
+    *theta = *controller.learnt();
     torque
 }

@@ -3,6 +3,8 @@
  *     harness MODEL STATES JOINTS torques      prints one torque a line
  *     harness MODEL STATES JOINTS count        calls once for each state, for callgrind
  *     harness MODEL STATES JOINTS time         for each line of standard input, a number of rounds: ns a call
+ *
+ * A state is q, q̇, v_r, a_r; with STEP it is t, q, q̇.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +12,13 @@
 #include <time.h>
 
 void prepare(const char* path);
+#ifdef STEP
+void measured(double t, const double* q, const double* qd, double* tau);
+#define WIDTH (1 + 2 * n)
+#else
 void measured(int n, const double* q, const double* qd, const double* v_r, const double* a_r, double* tau);
+#define WIDTH (4 * n)
+#endif
 
 static double* states;
 static size_t count;
@@ -26,13 +34,17 @@ static void read_states(const char* path)
     while (fscanf(file, "%lf", &states[read]) == 1)
         if (++read == room) states = realloc(states, (room *= 2) * sizeof *states);
     fclose(file);
-    count = read / (4 * n);
+    count = read / WIDTH;
 }
 
 static void call(size_t k, double* tau)
 {
-    const double* state = states + 4 * n * k;
+    const double* state = states + WIDTH * k;
+#ifdef STEP
+    measured(state[0], state + 1, state + 1 + n, tau);
+#else
     measured(n, state, state + n, state + 2 * n, state + 3 * n, tau);
+#endif
 }
 
 static void pass(void)

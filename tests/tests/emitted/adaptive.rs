@@ -4,10 +4,9 @@ use gramforge::Generation;
 use gramforge::internals::arm::Arm;
 use gramforge::internals::simulate::{ArmModel, Run, Scenario, simulate_on};
 use gramforge_generated::{arm3_adaptive, arm3_adaptive_guaranteed, arm3_robust};
-use gramforge_runtime::law::Law;
 use gramforge_runtime::reference::Reference;
 use gramforge_runtime::simulate::{JointState, RigidPlant, Simulation};
-use gramforge_runtime::{AdaptiveLaw, AdaptiveModel, Controller, Model};
+use gramforge_runtime::{AdaptiveLaw, AdaptiveModel, TorqueController};
 use gramforge_tests::random::Random;
 use gramforge_tests::{difference, edited, generation, largest};
 use serde_json::json;
@@ -98,24 +97,20 @@ fn modules_name_what_is_uncertain() {
 }
 
 /// Torques and what is learnt, instant by instant, of a generated controller on `plant`.
-fn through_module<M, L, const P: usize>(
-    mut controller: Controller<M, L, 3>,
+fn through_module<const P: usize>(
+    mut controller: impl TorqueController<3, Scalar = f64, Learnt = [f64; P]>,
     reference: &impl Reference<f64, 3>,
     start: f64,
     plant: &Arm,
     instants: usize,
-) -> Vec<f64>
-where
-    M: Model<3, Scalar = f64>,
-    L: Law<M, 3, State = [f64; P]>,
-{
+) -> Vec<f64> {
     let at = reference.at(0.0);
     let state = JointState { q: at.q.map(|q| q + start), qd: at.qd };
     let plant = RigidPlant { model: ArmModel::<3>::new(plant).unwrap(), coulomb: [[0.0; 2]; 3] };
-    let mut simulation = Simulation::new(plant, state, controller.settings().period, 10).unwrap();
+    let mut simulation = Simulation::new(plant, state, controller.period(), 10).unwrap();
     let mut out = Vec::new();
     for _ in 0..instants {
-        out.extend(*controller.law_state());
+        out.extend(*controller.learnt());
         out.extend(simulation.step(&mut controller, reference).unwrap().command.unwrap().torque);
     }
     out
@@ -138,16 +133,10 @@ fn a_run_through_the_module_is_the_simulated_one() {
             .collect();
         let instants = trace.time.len();
         let own = if name == "arm3_adaptive" {
-            through_module(
-                arm3_adaptive::controller().unwrap(),
-                &arm3_adaptive::REFERENCE,
-                start,
-                &heavy,
-                instants,
-            )
+            through_module(arm3_adaptive::controller(), &arm3_adaptive::REFERENCE, start, &heavy, instants)
         } else {
             through_module(
-                arm3_adaptive_guaranteed::controller().unwrap(),
+                arm3_adaptive_guaranteed::controller(),
                 &arm3_adaptive_guaranteed::REFERENCE,
                 start,
                 &heavy,

@@ -79,7 +79,7 @@ fn a_boundary_layer_removes_the_chatter() {
 
 /// Torques of the generated controller at every instant of the run, on a plant of the given model.
 fn through_modules(plant: impl Model<3, Scalar = f64>, instants: usize) -> Vec<f64> {
-    let mut controller = arm3_xi2::controller().unwrap();
+    let mut controller = arm3_xi2::controller();
     let start = arm3_xi2::REFERENCE.at(0.0);
     let state = JointState { q: start.q.map(|q| q + 0.2), qd: start.qd };
     let plant = RigidPlant { model: plant, coulomb: [[0.0; 2]; 3] };

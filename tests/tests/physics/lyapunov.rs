@@ -160,7 +160,7 @@ fn learning(plants: usize, seconds: f64) {
                 false,
             );
         };
-        let end = closed.run(adaptive::controller().unwrap(), &adaptive::REFERENCE, 0.02, seconds, judge);
+        let end = closed.run(adaptive::controller(), &adaptive::REFERENCE, 0.02, seconds, judge);
         within(design, &end, true);
     }
     println!(

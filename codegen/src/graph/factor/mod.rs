@@ -33,7 +33,7 @@ struct System {
 impl Graph {
     /// The same function with fewer operations, or this graph where nothing can be saved.
     pub fn factored(&self) -> Graph {
-        let mut system = System::new(self);
+        let Some(mut system) = System::new(self) else { return self.clone() };
         let mut least = usize::MAX;
         loop {
             system.sweep();
@@ -54,7 +54,8 @@ impl Graph {
 }
 
 impl System {
-    fn new(graph: &Graph) -> Self {
+    /// `None` for a graph that is no sum of products.
+    fn new(graph: &Graph) -> Option<Self> {
         let uses = graph.uses();
         let mut system = Self { parts: graph.parts, ..Self::default() };
         let mut sums: Vec<Vec<Term>> = Vec::with_capacity(graph.nodes.len());
@@ -70,6 +71,7 @@ impl System {
                 Node::Add(a, b) => joined(&sums[a], &sums[b], 1.0),
                 Node::Sub(a, b) => joined(&sums[a], &sums[b], -1.0),
                 Node::Neg(a) => joined(&[], &sums[a], -1.0),
+                Node::Abs(_) | Node::Clamp(..) | Node::Select(..) => return None,
                 Node::Mul(a, b) => {
                     let (a, b) = (system.single(&sums[a]), system.single(&sums[b]));
                     vec![product(&a, &b)]
@@ -85,7 +87,7 @@ impl System {
             system.outputs.push(sums[output].clone());
             system.output_names.push(graph.names[output].clone());
         }
-        system
+        Some(system)
     }
 
     fn add(&mut self, meaning: Meaning, name: Option<Name>) -> Atom {

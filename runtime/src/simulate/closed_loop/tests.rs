@@ -1,6 +1,8 @@
 use std::vec::Vec;
 
 use super::*;
+use crate::Controller;
+use crate::law::Law;
 use crate::law::{CoriolisTerm, ExactLaw, Gains, ReportLaw, Sample, Switching, lyapunov};
 use crate::simulate::RigidPlant;
 use crate::test_arm::TwoLink;

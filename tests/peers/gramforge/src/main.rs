@@ -7,16 +7,16 @@
 //! ```
 
 use std::hint::black_box;
-use std::time::Instant;
+
+mod drive;
 
 /// q, q̇, v_r, a_r.
 type State<const N: usize> = [[f64; N]; 4];
 
 /// Includes each module, with the call that is measured.
 macro_rules! arms {
-    ($($(#[$when:meta])* $name:ident $model:ident $joints:literal)*) => {
+    ($($name:ident $model:ident $joints:literal)*) => {
         $(
-            $(#[$when])*
             #[allow(dead_code)]
             mod $name {
                 include!(concat!(env!("GRAMFORGE_MODULES"), "/", stringify!($name), ".rs"));
@@ -31,79 +31,22 @@ macro_rules! arms {
 
         fn run(name: &str, numbers: &[f64], mode: &str) {
             match name {
-                $($(#[$when])* stringify!($name) => drive(&states(numbers), $name::measured, mode),)*
+                // By a pointer, so that the caller cannot change how it is called.
+                $(stringify!($name) => drive::drive(&states(numbers), black_box($name::measured as fn(&_) -> _), mode),)*
                 _ => panic!("no arm {name}"),
             }
         }
     };
 }
 
-arms! {
-    threedof_libm ThreedofLibm 3
-    puma560_libm Puma560Libm 6
-    stanford_libm StanfordLibm 6
-    ur5_libm Ur5Libm 6
-    panda_libm PandaLibm 7
-    puma560_within_1_libm Puma560Within1Libm 6
-    puma560_within_2_5_libm Puma560Within25Libm 6
-    puma560_within_5_libm Puma560Within5Libm 6
-    panda_within_1_libm PandaWithin1Libm 7
-    panda_within_5_libm PandaWithin5Libm 7
-    #[cfg(feature = "polynomial")]
-    panda_within_1_polynomial PandaWithin1Polynomial 7
-    #[cfg(feature = "polynomial")]
-    panda_within_5_polynomial PandaWithin5Polynomial 7
-    #[cfg(feature = "polynomial")]
-    puma560_within_1_polynomial Puma560Within1Polynomial 6
-    #[cfg(feature = "polynomial")]
-    puma560_within_2_5_polynomial Puma560Within25Polynomial 6
-    #[cfg(feature = "polynomial")]
-    puma560_within_5_polynomial Puma560Within5Polynomial 6
-    #[cfg(feature = "polynomial")]
-    threedof_polynomial ThreedofPolynomial 3
-    #[cfg(feature = "polynomial")]
-    puma560_polynomial Puma560Polynomial 6
-    #[cfg(feature = "polynomial")]
-    stanford_polynomial StanfordPolynomial 6
-    #[cfg(feature = "polynomial")]
-    ur5_polynomial Ur5Polynomial 6
-    #[cfg(feature = "polynomial")]
-    panda_polynomial PandaPolynomial 7
-}
+// `arms! { MODULE TYPE JOINTS … }` for every module that compare.py has generated.
+include!(concat!(env!("GRAMFORGE_MODULES"), "/arms.rs"));
 
 fn states<const N: usize>(numbers: &[f64]) -> Vec<State<N>> {
     let state = |line: &[f64]| std::array::from_fn(|i| std::array::from_fn(|j| line[i * N + j]));
     numbers.chunks_exact(4 * N).map(state).collect()
 }
 
-fn drive<const N: usize>(states: &[State<N>], measured: fn(&State<N>) -> [f64; N], mode: &str) {
-    let pass = || {
-        for state in states {
-            black_box(measured(black_box(state)));
-        }
-    };
-    match mode {
-        "torques" => {
-            for state in states {
-                println!("{}", measured(state).map(|x| format!("{x:e}")).join(" "));
-            }
-        }
-        "count" => pass(),
-        _ => {
-            for line in std::io::stdin().lines() {
-                let rounds: usize = line.expect("a line").trim().parse().expect("a number of rounds");
-                let start = Instant::now();
-                (0..rounds).for_each(|_| pass());
-                println!("{}", start.elapsed().as_nanos() as f64 / (rounds * states.len()) as f64);
-            }
-        }
-    }
-}
-
 fn main() {
-    let arguments: Vec<String> = std::env::args().collect();
-    let [_, name, path, mode] = &arguments[..] else { panic!("ARM STATES torques|count|time") };
-    let text = std::fs::read_to_string(path).expect("the states");
-    let numbers: Vec<f64> = text.split_whitespace().map(|x| x.parse().expect("a number")).collect();
-    run(name, &numbers, mode);
+    drive::main(run);
 }

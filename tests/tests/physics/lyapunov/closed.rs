@@ -4,10 +4,10 @@ use gramforge::Generation;
 use gramforge::internals::arm::Arm;
 use gramforge::internals::control::Design;
 use gramforge::internals::simulate::ArmModel;
-use gramforge_runtime::law::{Law, Sample, Tracking, lyapunov};
+use gramforge_runtime::law::{Sample, Tracking, lyapunov};
 use gramforge_runtime::reference::Reference;
 use gramforge_runtime::simulate::{JointState, Plant, RigidPlant, Simulation};
-use gramforge_runtime::{Controller, CoriolisTerm, Gains, Model, ReportLaw, Switching};
+use gramforge_runtime::{CoriolisTerm, Gains, Model, ReportLaw, Switching, TorqueController};
 use gramforge_tests::array;
 use gramforge_tests::random::Random;
 
@@ -87,25 +87,21 @@ impl<'a, const N: usize> Loop<'a, N> {
     }
 
     /// Runs `controller` and shows every control instant to `judge`; gives the errors at the end.
-    pub fn run<M, L>(
+    pub fn run<C: TorqueController<N, Scalar = f64>>(
         &self,
-        mut controller: Controller<M, L, N>,
+        mut controller: C,
         reference: &impl Reference<f64, N>,
         start: f64,
         seconds: f64,
-        mut judge: impl FnMut(&Sample<f64, N>, &[f64; N], &L::State),
-    ) -> [f64; N]
-    where
-        M: Model<N, Scalar = f64>,
-        L: Law<M, N>,
-    {
-        let period = controller.settings().period;
+        mut judge: impl FnMut(&Sample<f64, N>, &[f64; N], &C::Learnt),
+    ) -> [f64; N] {
+        let period = controller.period();
         let at = reference.at(0.0);
         let state = JointState { q: at.q.map(|q| q + start), qd: at.qd };
         let mut simulation = Simulation::new(&self.plant, state, period, 1).unwrap();
         let mut last = [0.0; N];
         while simulation.time() < seconds {
-            let before = *controller.law_state();
+            let before = *controller.learnt();
             let record = simulation.step(&mut controller, reference).unwrap();
             let command = record.command.unwrap();
             let JointState { q, qd } = record.state;

@@ -1,0 +1,1 @@
+//! The step against the runtime's laws.

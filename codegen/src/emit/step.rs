@@ -1,0 +1,99 @@
+//! The control step: law and model written out as one function.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::literal::count;
+use super::{Module, plain_numbers, spaced, statements, unused};
+use crate::control::StepGraph;
+use crate::error::Error;
+use crate::graph::{Node, Variable};
+
+/// The impl of the runtime's `ControlStep`, its operation counts, and the controller.
+pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<TokenStream, Error> {
+    let n = count(module.arm.dof());
+    let learns = step.code.outputs.len() - step.joints;
+    let p = count(learns);
+    let learnt = |learning: TokenStream, none: TokenStream| if learns == 0 { none } else { learning };
+    let parameters = learnt(quote!(#n, #p), quote!(#n));
+    let learning = learnt(
+        quote!(::gramforge_runtime::step::Learning { low: LAW.low, high: LAW.high, initial: LAW.initial }),
+        quote!(::gramforge_runtime::step::Learning::NONE),
+    );
+    let wanted: Vec<_> = step.asked().into_iter().chain(step.code.outputs.iter().copied()).collect();
+    let (statements, values) = statements::parts_with(&step.code, &wanted)?;
+    let (asked, rest) = values.split_at(step.joints.min(values.len()));
+    let (limited, theta) = rest.split_at(step.joints.min(rest.len()));
+    let [asked, limited, theta] = [asked, limited, theta].map(|values| spaced(values.iter().cloned()));
+    let used = |test: fn(&Node) -> bool| step.code.nodes.iter().any(test);
+    let functions: Vec<Ident> = [
+        (used(|node| matches!(node, Node::Clamp(..))), "clamp"),
+        (used(|node| matches!(node, Node::Select(..))), "select"),
+    ]
+    .into_iter()
+    .filter(|(used, _)| *used)
+    .map(|(_, name)| format_ident!("{name}"))
+    .collect();
+    let functions =
+        (!functions.is_empty()).then(|| quote!(use ::gramforge_runtime::step::{#(#functions),*};));
+    let read = used(|node| matches!(node, Node::Input(Variable::Theta(_))));
+    let learnt_so_far = if read { format_ident!("theta") } else { format_ident!("_theta") };
+    let reach = step.faults_reach_torque();
+    let (unused, plain, counts) = (unused(), plain_numbers(), counts(step));
+    Ok(quote! {
+        #counts
+
+        #plain
+        impl ::gramforge_runtime::ControlStep<#parameters> for #model {
+            type Scalar = f64;
+            const SETTINGS: ::gramforge_runtime::Settings<f64, #n> = SETTINGS;
+            const FAULTS_REACH_TORQUE: bool = #reach;
+            const LEARNING: ::gramforge_runtime::step::Learning<f64, #p> = #learning;
+
+            fn step(
+                q: &[f64; #n],
+                qd: &[f64; #n],
+                desired: &::gramforge_runtime::Desired<f64, #n>,
+                #learnt_so_far: &[f64; #p],
+            ) -> ::gramforge_runtime::step::StepTorque<f64, #parameters> {
+                #functions
+                #(#statements)*
+                ::gramforge_runtime::step::StepTorque { asked: #asked, limited: #limited, theta: #theta }
+            }
+
+            fn gravity_torque(q: &[f64; #n]) -> [f64; #n] {
+                ::gramforge_runtime::Model::gravity(&#model, q)
+            }
+        }
+
+        /// The controller before its first step. All its numbers were checked when it was generated, so it can be a `static`.
+        #unused
+        pub const fn controller() -> ::gramforge_runtime::StepController<#model, #parameters> {
+            ::gramforge_runtime::StepController::new()
+        }
+    })
+}
+
+/// What one step computes, the desired motion apart.
+fn counts(step: &StepGraph) -> TokenStream {
+    let operations = step.operations();
+    let unused = unused();
+    let counts = [
+        ("STEP_MULTIPLICATIONS", operations.mul, " Multiplications in one control step, law and model."),
+        (
+            "STEP_ADDITIONS",
+            operations.add,
+            " Additions, subtractions, negations and absolute values in one control step.",
+        ),
+        ("STEP_CLAMPS", operations.other, " Numbers that one control step clamps or chooses by a sign."),
+    ]
+    .map(|(name, number, doc)| {
+        let (name, number) = (format_ident!("{name}"), count(number));
+        quote! {
+            #[doc = #doc]
+            #unused
+            pub const #name: usize = #number;
+        }
+    });
+    quote!(#(#counts)*)
+}

@@ -1,0 +1,1 @@
+//! The loop about a step that is written out.
