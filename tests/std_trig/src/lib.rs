@@ -13,6 +13,7 @@ pub mod arm3_std {
 mod tests {
     use gramforge_generated::arm3_xi2::Arm3Xi2;
     use gramforge_runtime::Model;
+    use gramforge_runtime::reference::Reference;
 
     use crate::arm3_std::{self, Arm3Std};
 
@@ -29,6 +30,7 @@ mod tests {
                 assert!((own - other).abs() <= 1e-11, "{own} and {other} N·m at {q:?}");
             }
         }
-        assert!(arm3_std::controller().is_ok());
+        let start = arm3_std::REFERENCE.at(0.0);
+        assert!(arm3_std::controller().step(&start.q, &start.qd, &start).is_ok());
     }
 }
