@@ -24,8 +24,10 @@ mod tests {
             let x = |joint: u32| 3.0 * f64::from((k * 7919 + joint * 104_729) % 2003) / 1001.5 - 3.0;
             let vector = |from: u32| [x(from), x(from + 1), x(from + 2)];
             let (q, qd, v_r, a_r) = (vector(0), vector(3), vector(6), vector(9));
-            let (own, other) =
-                (Arm3Std.passivity_torque(&q, &qd, &v_r, &a_r), Arm3Xi2.passivity_torque(&q, &qd, &v_r, &a_r));
+            let (own, other) = (
+                Arm3Std.passivity_torque(&q, &qd, &v_r, &a_r),
+                Arm3Xi2.passivity_torque(&q, &qd, &v_r, &a_r),
+            );
             for (own, other) in own.iter().zip(&other) {
                 assert!((own - other).abs() <= 1e-11, "{own} and {other} N·m at {q:?}");
             }
