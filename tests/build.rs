@@ -1,4 +1,4 @@
-//! Makes modules into `OUT_DIR` the way a user's build script does; `tests/generated_code.rs` includes them.
+//! Makes modules into `OUT_DIR` the way a user's build script does; `tests/emitted/generated_code.rs` includes them.
 
 fn main() {
     let specs = [

@@ -50,7 +50,7 @@ pub struct Output {
     pub path: PathBuf,
     /// Its text.
     pub text: String,
-    /// Whether the file was written, that is: whether it was missing or said something else.
+    /// Whether the file was written: it was missing, or its content was different.
     pub written: bool,
     /// What the module was made from.
     pub generation: Generation,
@@ -89,15 +89,15 @@ impl Config {
         self
     }
 
-    /// Sets who is told how far the work is; nobody by default.
+    /// Sets where progress is reported; by default it is not reported.
     #[must_use]
     pub fn progress(mut self, progress: Arc<dyn Progress>) -> Self {
         self.progress = Some(progress);
         self
     }
 
-    /// Sets whether [`Config::run_in_build_script`] may take from `OUT_DIR` what an earlier run has made of the same
-    /// specification, files and effort with the same generator; it may by default. What is taken has the same bytes.
+    /// Sets whether [`Config::run_in_build_script`] may use the results of earlier runs in `OUT_DIR`, which it does by
+    /// default. They come from the same specification, files, effort and generator, and have the same bytes.
     #[must_use]
     pub fn cache(mut self, cache: bool) -> Self {
         self.uncached = !cache;
@@ -137,12 +137,13 @@ impl Config {
 
     /// [`Config::generate`] for a build script.
     ///
-    /// Tells cargo to run the script again when a specification or a file that it names changes, and shows warnings. Of
-    /// the modules that earlier runs have written below `OUT_DIR`, those that no specification gives any more are removed.
-    /// Where anything is wrong, cargo is told every fault, each of these modules is replaced by one that does not compile
-    /// and says why, and the process ends with exit code 1: `build.rs` does not go on, and the build fails.
+    /// Cargo runs the script again when a specification or a file that it names changes, and it shows warnings. Modules
+    /// below `OUT_DIR` that no specification gives any more are removed.
     ///
-    /// Files outside `OUT_DIR`, where [`Config::out_dir`] names such a folder, are written and never removed.
+    /// If anything is wrong, cargo shows every fault, and each of these modules is replaced by one that does not compile
+    /// and that holds the message. The process then ends with exit code 1: `build.rs` stops, and the build fails.
+    ///
+    /// Files outside `OUT_DIR` (see [`Config::out_dir`]) are written but never removed.
     pub fn run_in_build_script(&self) {
         let done = build_script::run(self, &mut stdout().lock());
         if !done {
@@ -160,7 +161,7 @@ impl Config {
         Ok(made.into_iter().filter_map(Made::into_output).collect())
     }
 
-    /// Makes every module, as far as `cache` does not hold it.
+    /// Makes every module that `cache` does not hold.
     fn make(&self, loaded: Vec<Result<Loaded, Error>>, cache: Option<&Cache>) -> Result<Vec<Made>, Error> {
         let out_dir = self.folder()?;
         let mut faults = Vec::new();
@@ -198,8 +199,8 @@ fn same_name(spec: &Path, made: &Made, other: &Made) -> Vec<crate::error::Diagno
     let first = other.spec.display();
     faults.push(
         "name",
-        format!("is {:?}, as in {first}", made.name),
-        "give every specification a name of its own",
+        format!("is {:?}, which {first} also uses", made.name),
+        "give each specification a different name",
     );
     match faults.into_error() {
         Error::Input(list) => list,

@@ -5,18 +5,18 @@ use std::path::{Path, PathBuf};
 
 use crate::text::escaped;
 
-/// Most faults that an error tells one by one: a generated file may hold thousands of the same kind.
+/// The largest number of faults that an error shows: a file may hold thousands of the same kind.
 pub const MOST_TOLD: usize = 100;
 
-/// One thing wrong with the input. Shown, it takes one line, whatever it holds.
+/// One fault of the input. It is shown in one line.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// The file it stands in.
+    /// The file.
     pub file: PathBuf,
-    /// The line of that file, from 1; `None` where the field says enough.
+    /// The line of that file, from 1; `None` if the field is enough to find the place.
     pub line: Option<usize>,
-    /// Path of the field inside the file, such as `arm.dh.links[1].mass`; empty where the whole file is meant.
+    /// Path of the field inside the file, such as `arm.dh.links[1].mass`; empty if the fault is about the whole file.
     pub field: String,
     /// What is wrong, with the offending value.
     pub problem: String,
@@ -130,7 +130,7 @@ impl Diagnostics {
     }
 }
 
-/// A generated file that is not what its specification gives.
+/// A generated file that differs from what its specification gives.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stale {
@@ -167,7 +167,7 @@ impl fmt::Display for Error {
 impl std::error::Error for Error {}
 
 impl Error {
-    /// The process exit code that stands for this error: 1 check failed, 2 bad input, 3 internal.
+    /// The exit code of the process for this error: 1 check failed, 2 bad input, 3 internal.
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Stale(_) => 1,
@@ -187,7 +187,11 @@ impl Error {
 fn stale(files: &[Stale]) -> String {
     let line = |file: &Stale| {
         let path = file.path.to_string_lossy();
-        format!("{} is not what its specification gives; run `{}`", escaped(&path), escaped(&file.command))
+        format!(
+            "{} differs from what its specification gives; run `{}`",
+            escaped(&path),
+            escaped(&file.command)
+        )
     };
     files.iter().map(line).collect::<Vec<_>>().join("\n")
 }

@@ -11,8 +11,8 @@
 //! - [`Config`] generates modules, from a build script or from a program of your own; an [`Output`] is one module.
 //! - [`Generation`] is everything that follows from one specification: the model, its bounds and the controller.
 //! - [`load`] reads a specification file into [`spec::Spec`].
-//! - [`Effort`] says how much work each bound may take, [`Progress`] hears how far it is.
-//! - [`Error`] tells every fault of the input at once, each as a [`Diagnostic`].
+//! - [`Effort`] says how much work each bound may take. [`Progress`] reports how far the work is.
+//! - [`Error`] lists every fault of the input at once, each as a [`Diagnostic`].
 //!
 //! The same specification gives the same bytes on every machine: sums have a fixed order, sines come from `libm`, and no
 //! hash map is ever iterated.
@@ -62,7 +62,7 @@ pub use error::{Diagnostic, Error, Stale};
 pub use pipeline::Generation;
 pub use progress::Progress;
 
-/// The stages, open for the command and the tests of this workspace. Nothing here is promised to stay as it is.
+/// The stages, for the command and the tests of this workspace only. They may change in any release.
 #[doc(hidden)]
 pub mod internals {
     macro_rules! open {

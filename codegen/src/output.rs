@@ -1,8 +1,8 @@
 //! The only place that writes files.
 //!
 //! All files are written beside their targets before the first one takes its place, so that a failure leaves everything
-//! as it was and no reader ever sees half a file. What a process writes bears a name of its own and is locked as long as
-//! the process lives; what an ended one has left behind is thrown away by the next that writes the same file.
+//! as it was and no reader ever sees half a file. Temporary files have names of their own and are locked while the process
+//! runs. If a process ends early, the next one that writes the same file removes what it has left.
 
 mod leftover;
 mod partial;
@@ -14,10 +14,10 @@ use std::path::Path;
 use crate::error::{Diagnostics, Error};
 use partial::Partial;
 
-/// A file to be written: where, and what it is to say.
+/// A file to be written: its path and its text.
 pub type Wanted<'a> = (&'a Path, &'a str);
 
-/// Writes every file that says something else, creating folders on the way; tells for each whether it was written.
+/// Writes every file whose text differs and creates missing folders. Gives for each file whether it was written.
 ///
 /// # Errors
 /// [`Error::Input`] naming every path that cannot be written or is something else than a regular file. No file has been
@@ -57,14 +57,14 @@ pub fn write_if_changed(path: &Path, text: &str) -> Result<bool, Error> {
     write_all(&[(path, text)]).map(|written| written == [true])
 }
 
-/// Whether the file at `path` says `text`, byte for byte. Nothing but a regular file is opened: a pipe could be waited
-/// for in vain.
+/// Whether the file at `path` holds `text`, byte for byte. Only a regular file is opened: reading a pipe could take for
+/// ever.
 pub fn is_current(path: &Path, text: &str) -> bool {
     let regular = fs::metadata(path).is_ok_and(|found| found.is_file() && found.len() == text.len() as u64);
     regular && fs::read(path).is_ok_and(|found| found == text.as_bytes())
 }
 
-/// Why `path` may not be replaced, if it may not: a link, pipe, device or folder is not ours to remove.
+/// Why `path` may not be replaced, if it may not: links, pipes, devices and folders are never removed.
 fn replaceable(path: &Path) -> Result<(), String> {
     match fs::symlink_metadata(path) {
         Ok(found) if found.is_file() => Ok(()),

@@ -1,20 +1,20 @@
-//! How far a long piece of work is, for whoever wants to show it.
+//! Reports on how far the work is, to be shown while it lasts.
 //!
-//! Nothing that is generated depends on who listens.
+//! The generated code does not depend on them.
 
 use std::fmt::Debug;
 use std::sync::{Mutex, PoisonError};
 
-/// Hears how far the stages of a generation are.
+/// Receives reports on the stages of a generation.
 ///
 /// Every stage is reported first with nothing done and last with all done, in between never with less than before. A
 /// stage may begin and end inside another. Reports of one stage may come from several threads, one after the other.
 pub trait Progress: Debug + Send + Sync {
-    /// `done` of the `total` parts of `stage` are done. A stage of one part tells of its beginning and its end alone.
+    /// `done` of the `total` parts of `stage` are done. A stage of one part is reported at its beginning and at its end only.
     fn report(&self, stage: &str, done: usize, total: usize);
 }
 
-/// Tells nobody.
+/// Ignores all reports.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Silent;
 
@@ -22,12 +22,12 @@ impl Progress for Silent {
     fn report(&self, _stage: &str, _done: usize, _total: usize) {}
 }
 
-/// Puts a name before every stage: where several specifications are worked on, which of them it is.
+/// Writes a name before every stage, such as the specification's if there are several.
 #[derive(Debug)]
 pub struct Titled<'a> {
     /// What stands before the stage's name.
     pub title: String,
-    /// Who is told.
+    /// Where the reports go.
     pub progress: &'a dyn Progress,
 }
 
@@ -37,7 +37,7 @@ impl Progress for Titled<'_> {
     }
 }
 
-/// A stage under way. Dropped, it is reported as done, however much of it was left out.
+/// A running stage. When it is dropped, it is reported as done, even if parts of it were left out.
 #[derive(Debug)]
 pub struct Stage<'a> {
     progress: &'a dyn Progress,
@@ -53,7 +53,7 @@ impl<'a> Stage<'a> {
         Self { progress, name, total, done: Mutex::new(0) }
     }
 
-    /// Begins a part, which is done when what is returned is dropped.
+    /// Begins a part. The part is done when the returned value is dropped.
     pub fn part(&self) -> Part<'_> {
         Part(self)
     }
@@ -77,7 +77,7 @@ impl Drop for Stage<'_> {
     }
 }
 
-/// A part of a stage under way; dropped, it is done.
+/// A running part of a stage; it is done when it is dropped.
 #[derive(Debug)]
 pub struct Part<'a>(&'a Stage<'a>);
 

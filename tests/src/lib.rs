@@ -2,6 +2,7 @@
 
 pub mod chain;
 pub mod double;
+pub mod gains;
 pub mod oracle;
 pub mod random;
 pub mod scratch;

@@ -37,7 +37,7 @@ impl Indefinite {
             "arm",
             format!(
                 "has the inertia matrix D(q) with the smallest eigenvalue {:.3e} (largest entry {:.3e} kg·m²) at q = {:?}: \
-                 the joint {name} moves next to no mass there",
+                 the joint {name} moves almost no mass there",
                 self.eigenvalue, self.scale, self.q
             ),
             format!("give every joint some inertia: check the masses behind {name}, or add `armature` to it"),
@@ -51,7 +51,7 @@ impl Indefinite {
         faults.push(
             "control.uncertainty",
             format!(
-                "reaches an arm that cannot be: with {} the inertia matrix D(q) has the smallest eigenvalue {:.3e} at q = {:?}",
+                "admits an arm that cannot exist: with {} the inertia matrix D(q) has the smallest eigenvalue {:.3e} at q = {:?}",
                 values.join(", "),
                 self.eigenvalue,
                 self.q

@@ -54,7 +54,7 @@ pub(super) fn drive(spec: &DriveSpec, kind: JointKind, place: &Place, faults: &m
         if present {
             place.at(name).fault(
                 faults,
-                "stands beside `motor`, which says the same on the motor side",
+                "is given together with `motor`, which gives the same on the motor side",
                 format!("remove `{name}` or `motor`"),
             );
         }
@@ -79,7 +79,11 @@ pub(super) fn drive(spec: &DriveSpec, kind: JointKind, place: &Place, faults: &m
         .map(|c| c.map(|v| v * gear.abs()));
     let reached = [out.armature, out.viscous_friction].into_iter().flatten();
     if !reached.chain(out.coulomb_friction.into_iter().flatten()).all(f64::is_finite) {
-        place.fault(faults, "overflows when it is brought to the joint side", "write the values in SI units");
+        place.fault(
+            faults,
+            "overflows when it is converted to the joint side",
+            "write the values in SI units",
+        );
     }
     out
 }

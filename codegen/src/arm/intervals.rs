@@ -18,6 +18,16 @@ pub(super) struct Given {
     pseudo_inertia: Option<SymmetricIntervalsSpec>,
 }
 
+/// A body and where it stands.
+pub(super) struct Carried<'a> {
+    /// Number of the joint that moves it, from 0.
+    pub(super) joint: usize,
+    /// The arm's own body, in the frame of its intervals.
+    pub(super) body: &'a Body,
+    /// This frame in the moved frame of the joint.
+    pub(super) frame: &'a Transform,
+}
+
 impl Given {
     pub(super) fn payload(spec: &PayloadUncertaintySpec) -> Self {
         let PayloadUncertaintySpec { mass, at, first_moment, pseudo_inertia } = spec.clone();
@@ -29,17 +39,15 @@ impl Given {
         Self { mass, at, first_moment, pseudo_inertia }
     }
 
-    /// One parameter for each interval; `nominal` is the body in the frame of the intervals, which stands at `frame`
-    /// in the moved frame of joint number `joint`.
+    /// One parameter for each interval of the body `carried`.
     pub(super) fn parameters(
         &self,
         name: &str,
-        joint: usize,
-        nominal: &Body,
-        frame: &Transform,
+        carried: &Carried,
         place: &Place,
         faults: &mut Diagnostics,
     ) -> Vec<Parameter> {
+        let Carried { joint, body: nominal, frame } = *carried;
         let at = self.at.unwrap_or_default();
         let [moments, inertias] = sizes(nominal, frame);
         let mut numbers =
@@ -117,13 +125,13 @@ pub(super) fn about(
     let size = low.abs().max(high.abs()).max(size);
     let slack = SLACK * size;
     if !(low.is_finite() && high.is_finite() && low <= high) {
-        place.fault(faults, format!("is {range:?}"), "write two finite numbers, the lowest first");
+        place.fault(faults, format!("is {range:?}"), "write two finite numbers, the lower one first");
     } else if not_negative && low < 0.0 {
         place.fault(faults, format!("is {range:?}"), "write numbers of at least 0");
     } else if value < low - slack || high + slack < value {
         place.fault(
             faults,
-            format!("is {range:?}, which does not hold the arm's own {value}"),
+            format!("is {range:?}, which does not contain the arm's own {value}"),
             "write an interval about the arm's own value, or change the arm",
         );
     } else {

@@ -212,7 +212,7 @@ impl Arm {
         }
         let sane = |t: &Transform| t.translation.iter().all(|v| v.is_finite());
         if !arm.moving().iter().all(|j| j.body.is_finite() && sane(&j.pose)) || !sane(&arm.tip) {
-            faults.push("arm", "holds lengths and masses whose products overflow", "write them in SI units");
+            faults.push("arm", "has lengths and masses whose products overflow", "write them in SI units");
         }
         if faults.count() > before {
             return None;
@@ -251,8 +251,8 @@ fn refuse_urdf_fields(spec: &ArmSpec, faults: &mut Diagnostics) {
         if present {
             faults.push(
                 format!("arm.{name}"),
-                "goes with `urdf` alone, and the arm is a DH table",
-                "remove it; a DH table says the same in its links",
+                "applies only to `urdf`, but the arm is a DH table",
+                "remove it; in a DH table the links hold these values",
             );
         }
     }

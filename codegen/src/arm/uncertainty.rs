@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::intervals::{Given, about};
+use super::intervals::{Carried, Given, about};
 use super::place::Place;
 use super::{Arm, Body};
 use crate::error::Diagnostics;
@@ -65,14 +65,15 @@ impl Uncertainty {
         }
         if let (Some(payload), Some(last)) = (&spec.payload, arm.joints.len().checked_sub(1)) {
             let place = place.at("payload");
-            let carried = own.payload.as_ref().map_or(Body::default(), |p| {
+            let nominal = own.payload.as_ref().map_or(Body::default(), |p| {
                 let inertia = p.inertia.as_ref().map_or([[0.0; 3]; 3], super::body::matrix);
                 Body::from_com(p.mass, p.com, inertia)
             });
             let at = payload.at.or(own.payload.as_ref().map(|p| p.com));
             let mut body = Given::payload(payload);
             body.at = at;
-            out.parameters.extend(body.parameters("payload", last, &carried, &arm.tip, &place, faults));
+            let carried = Carried { joint: last, body: &nominal, frame: &arm.tip };
+            out.parameters.extend(body.parameters("payload", &carried, &place, faults));
         }
         for (index, link) in spec.links.iter().enumerate() {
             let name = format!("links[{index}]");
@@ -89,13 +90,14 @@ impl Uncertainty {
             };
             if spec.links[..index].iter().any(|other| other.joint == link.joint) {
                 let help = "write its intervals in one place: the two would add up";
-                place.at("joint").fault(faults, format!("is {:?} once more", link.joint), help);
+                place.at("joint").fault(faults, format!("is {:?} again", link.joint), help);
                 continue;
             }
             let joint = &arm.joints[number];
             let nominal = joint.body.moved(&joint.link.inverse());
             let given = Given::link(link);
-            out.parameters.extend(given.parameters(&name, number, &nominal, &joint.link, &place, faults));
+            let carried = Carried { joint: number, body: &nominal, frame: &joint.link };
+            out.parameters.extend(given.parameters(&name, &carried, &place, faults));
         }
         if out.parameters.len() > MOST_PARAMETERS {
             place.fault(

@@ -4,10 +4,10 @@
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// Where bound and largest value found differ by less than this fraction, branch and bound stops.
+    /// Branch and bound stops when the bound and the largest value found differ by less than this fraction.
     pub tolerance: f64,
     /// Boxes for each residual; of those that are enclosed term by term, a residual of more than [`super::LONG`] terms gets
-    /// accordingly fewer. When they are spent, the bound found so far stands. A box that waits takes 200 bytes.
+    /// accordingly fewer. When they are spent, the best bound so far is used. A box that waits takes 200 bytes.
     pub boxes: usize,
     /// Starts of the search from below.
     pub starts: usize,

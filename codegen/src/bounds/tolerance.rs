@@ -56,7 +56,7 @@ impl ModelError<'_> {
         let own = self.loaded.spec.arm.round_angles.unwrap_or(ROUND_ANGLES);
         let smaller = if own > ROUND_ANGLES { ROUND_ANGLES } else { 0.0 };
         let problem = format!(
-            "is {}, and rotations rounded by that cost {} of the peak torque of {}, where `model` allows {}",
+            "is {}, and rounding rotations by up to this costs {} of the peak torque of {}, but `model` allows {}",
             scientific(own),
             percent_up(worst.turned),
             self.arm.joints[worst.joint].name,

@@ -44,12 +44,12 @@ pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut D
 fn delta_c1(control: &ControlSpec, joints: Option<usize>, faults: &mut Diagnostics) {
     if !control.law.has_bracket() && control.coriolis_term != CoriolisTermSpec::Matrix {
         let help = "remove it, or choose law `report`";
-        faults.push("control.coriolis_term", "goes with the laws `report` and `adaptive` alone", help);
+        faults.push("control.coriolis_term", "applies only to the laws `report` and `adaptive`", help);
     }
     let Some(spec) = &control.delta_c1 else { return };
     if !control.law.has_bracket() || control.coriolis_term != CoriolisTermSpec::Matrix {
         let help = "remove it, or choose law `report` with `coriolis_term` `matrix`";
-        faults.push("control.delta_c1", "has no place in this law", help);
+        faults.push("control.delta_c1", "is not used by this law", help);
     }
     square("control.delta_c1", spec, joints, faults);
 }
@@ -77,15 +77,15 @@ fn adaptation(control: &ControlSpec, faults: &mut Diagnostics) {
     if control.law == LawSpec::Adaptive && control.uncertainty.is_none() {
         faults.push(
             "control.uncertainty",
-            "is missing, and law `adaptive` has nothing to learn",
-            "write the intervals of what is uncertain, or take law `report` or `tight`",
+            "is missing, so law `adaptive` has nothing to learn",
+            "write the intervals of the uncertain numbers, or take law `report` or `tight`",
         );
     }
     let Some(adaptation) = &control.adaptation else { return };
     if control.law != LawSpec::Adaptive {
         faults.push(
             "control.adaptation",
-            "goes with law `adaptive` alone",
+            "applies only to law `adaptive`",
             "remove it, or choose law `adaptive`",
         );
     }

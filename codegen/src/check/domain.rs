@@ -33,7 +33,7 @@ pub(super) fn check(spec: &Spec, arm: Option<&Arm>, joints: Option<usize>, fault
             Some(_) => "`tube`",
             None => "`tube`, the default,",
         };
-        let problem = format!("is missing, and the measure {word} follows it");
+        let problem = format!("is missing, but the measure {word} needs it");
         faults.push("motion", problem, "add a motion, or write \"measure\": \"workspace\"");
     }
 }

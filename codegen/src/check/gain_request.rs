@@ -47,7 +47,7 @@ pub(super) fn check(control: &ControlSpec, spec: &Spec, joints: Option<usize>, f
     }
     if spec.measure == Some(MeasureSpec::Trajectory) {
         let help = "take the measure `tube`, or `workspace`";
-        faults.push("control.design", "finds no room for errors in the measure `trajectory`", help);
+        faults.push("control.design", "needs room for errors, but the measure `trajectory` has none", help);
     }
     let Some(tube) = &request.tube else { return };
     entries("control.design.tube", tube, joints, |v| v >= LEAST, "a number of at least 1e-6", faults);

@@ -54,7 +54,7 @@ pub fn read(path: &Path) -> Result<Loaded, Error> {
     }
     let mut values = Diagnostics::of(&loaded.path);
     examine(&loaded, Extent::Whole, &mut values);
-    // Faults of what stands in for a section, or of its absence, are none of the user's.
+    // Do not report faults of a placeholder or of a missing section: the user did not write it.
     let gone = |section: &str| lost.contains(section);
     let together = ["dictionary", "emit.trig", "control.law"];
     let known = |fault: &&Diagnostic| {
@@ -164,7 +164,7 @@ fn going_together(spec: &Spec, faults: &mut Diagnostics) {
     let products = spec.dictionary != DictionarySpec::Harmonic && !chosen && spec.model != ModelSpec::Exact;
     let apart = matches!(spec.model, ModelSpec::Separate { .. });
     let asked = match spec.model {
-        ModelSpec::Auto => "`model` is `auto`, as it is where none is written",
+        ModelSpec::Auto => "`model` is `auto`, which is the default",
         ModelSpec::Tolerance { .. } => "`model` is `tolerance`",
         ModelSpec::Exact => "`model` is `exact`",
         _ if spec.dictionary == DictionarySpec::Product => "`dictionary` is `product`",
@@ -174,8 +174,7 @@ fn going_together(spec: &Spec, faults: &mut Diagnostics) {
     };
     if matches!(spec.emit.trig, TrigSpec::Table { .. }) && (chosen || products) {
         let problem = format!(
-            "takes a table, which goes with `shared`, `separate` and `exact` models of the harmonic dictionary alone, and \
-             {asked}"
+            "asks for a table, which needs a `shared`, `separate` or `exact` model of the harmonic dictionary, but {asked}"
         );
         let other = if products { HARMONIC } else { MODEL };
         faults.push("emit.trig", problem, format!("write \"polynomial\" or \"libm\", or {other}"));
@@ -183,14 +182,14 @@ fn going_together(spec: &Spec, faults: &mut Diagnostics) {
     if spec.dictionary != DictionarySpec::Harmonic && (chosen || spec.model == ModelSpec::Exact) {
         faults.push(
             "dictionary",
-            format!("is for `shared` and `separate` models alone, and {asked}"),
+            format!("applies only to `shared` and `separate` models, but {asked}"),
             "leave it out, or write `model` as {\"shared\": {\"functions\": N}}",
         );
     }
     let adaptive = spec.control.as_ref().is_some_and(|control| control.law == LawSpec::Adaptive);
     if adaptive && (chosen || products || apart) {
         let problem = format!(
-            "is `adaptive`, which goes with `shared` and `exact` models of the harmonic dictionary alone, and {asked}"
+            "is `adaptive`, which needs a `shared` or `exact` model of the harmonic dictionary, but {asked}"
         );
         let other = match (products, apart) {
             (true, true) => format!("{HARMONIC} and {MODEL}"),

@@ -9,7 +9,7 @@ use crate::number::scientific;
 use crate::spec::MotionSpec;
 use crate::text::has;
 
-/// Most knots of a motion and most sinusoids of a joint: each stands in the module.
+/// Most knots of a motion and most sinusoids of a joint: each is written into the module.
 const MOST_KNOTS: usize = 20_000;
 const MOST_SINUSOIDS: usize = 1_000;
 
@@ -76,7 +76,7 @@ fn waypoints(times: &[f64], positions: &[Vec<f64>], joints: Option<usize>, fault
             && after <= before
         {
             let problem = format!("is {}, after {}", scientific(*after), scientific(*before));
-            faults.push(format!("{field}[{}]", i + 1), problem, "let the times rise");
+            faults.push(format!("{field}[{}]", i + 1), problem, "write the times in increasing order");
         }
     }
     if let Some(last) = times.last().filter(|last| **last > LONGEST) {
@@ -98,7 +98,7 @@ fn waypoints(times: &[f64], positions: &[Vec<f64>], joints: Option<usize>, fault
 
 fn at_most(field: &str, found: usize, most: usize, faults: &mut Diagnostics) {
     if found > most {
-        faults.push(field, has(found), format!("write at most {most}: each stands in the module"));
+        faults.push(field, has(found), format!("write at most {most}: each is written into the module"));
     }
 }
 

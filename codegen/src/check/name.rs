@@ -42,13 +42,13 @@ fn refusal(name: &str) -> Option<(String, &'static str)> {
     } else if name.len() > LONGEST {
         Some((format!("has {} characters", name.len()), "write at most 200: it names a file"))
     } else if name.contains("__") {
-        Some((format!("is {name:?}, and Rust warns of two underscores in a row"), "write one underscore"))
+        Some((format!("is {name:?}, and Rust warns about two underscores in a row"), "write one underscore"))
     } else if KEYWORDS.contains(&name) {
         Some((format!("is {name:?}, a word of the Rust language"), OTHER))
     } else if DEVICES.contains(&name) || is_port(name) {
-        Some((format!("is {name:?}, which Windows keeps for a device"), OTHER))
+        Some((format!("is {name:?}, which is the name of a device in Windows"), OTHER))
     } else if ROOTS.contains(&name) {
-        Some((format!("is {name:?}, as the file of a crate itself is called"), OTHER))
+        Some((format!("is {name:?}, which is the name of a crate's own file"), OTHER))
     } else {
         None
     }
@@ -73,10 +73,10 @@ mod tests {
             ("../arm", "is \"../arm\""),
             ("_arm", "is \"_arm\""),
             ("self", "a word of the Rust language"),
-            ("con", "which Windows keeps for a device"),
-            ("com1", "which Windows keeps for a device"),
-            ("lpt9", "which Windows keeps for a device"),
-            ("lib", "as the file of a crate itself is called"),
+            ("con", "which is the name of a device in Windows"),
+            ("com1", "which is the name of a device in Windows"),
+            ("lpt9", "which is the name of a device in Windows"),
+            ("lib", "which is the name of a crate's own file"),
             ("a__b", "two underscores"),
             (&long, "has 201 characters"),
         ];

@@ -71,7 +71,7 @@ fn motions_fit_the_arm() {
         },
         &[
             "motion.waypoints.times[0]: is 0.5; start at 0",
-            "motion.waypoints.times[2]: is 1, after 1; let the times rise",
+            "motion.waypoints.times[2]: is 1, after 1; write the times in increasing order",
             "motion.waypoints.positions: has 2 entries; write 3, one for each time",
             "motion.waypoints.positions[1]: has 1 entry; write 3",
         ],
@@ -96,20 +96,20 @@ fn measures_have_what_they_need() {
     let without = |v: &mut Value| {
         v.as_object_mut().expect("an object").remove("motion");
     };
-    expect(without, &["motion: is missing, and the measure `tube` follows it; add a motion"]);
+    expect(without, &["motion: is missing, but the measure `tube` needs it; add a motion"]);
     expect(
         |v| {
             without(v);
             v["measure"] = json!("trajectory");
         },
-        &["motion: is missing, and the measure `trajectory`"],
+        &["motion: is missing, but the measure `trajectory`"],
     );
     expect(
         |v| {
             without(v);
             v.as_object_mut().expect("an object").remove("measure");
         },
-        &["motion: is missing, and the measure `tube`, the default,"],
+        &["motion: is missing, but the measure `tube`, the default,"],
     );
     expect(
         |v| v["measure"]["tube"]["position_error"] = json!([0.1, -0.1]),

@@ -7,14 +7,13 @@ pub(crate) mod sparse;
 
 use std::sync::Arc;
 
-use crate::parallel::Parallelize;
-
 use crate::arm::Arm;
 use crate::bounds::{SCATTERED, TorqueScale, position_bound};
 use crate::domain::{Domain, Measure};
 use crate::graph::Graph;
 use crate::lagrangian::{Absolute, Coordinates, Lagrangian};
 use crate::model::Model;
+use crate::parallel::Parallelize;
 use crate::progress::{Progress, Stage};
 use crate::reduction::{self, extremes};
 use crate::torque::{self, Form};
@@ -22,16 +21,17 @@ use points::{points, seen_within};
 use proofs::Proofs;
 use sparse::SparseProblem;
 
-/// Sparse members whose error at the points is above the tolerance by this factor are looked at, too: between two of them
-/// the error jumps.
+/// Sparse members whose error at the points is above the tolerance by up to this factor are looked at, too: the error
+/// jumps between one member and the next.
 const BEYOND: f64 = 1.13;
-/// The exact model beyond which no sparse one is sought: none of a useful tolerance would be cheaper than the recursion.
+/// Terms of the exact model beyond which no sparse one is sought: at a useful tolerance none would be cheaper than the
+/// recursion.
 const LONG: usize = 4000;
-/// Code is made of the sparse members that the search takes to cost no more than this times the exact one: the graph seldom
-/// saves more.
+/// Code is made of the sparse members whose cost the search puts at no more than this times the exact one's: the graph
+/// seldom saves more than the difference.
 const SHARED: f64 = 1.25;
-/// Recursions of simpler arms are sought as far as they save this part of the exact one's price, and where a sparse model
-/// saves more, not at all: they would hardly get there.
+/// Recursions of simpler arms are sought until they save this part of the exact one's cost. Where a sparse model saves
+/// more, none is sought: they rarely save so much.
 const MOST: f64 = 0.45;
 /// Of long models, those are tried whose coefficients' largest errors at the points leave this part of the tolerance.
 const LIKELY: f64 = 0.93;
@@ -93,7 +93,7 @@ pub fn why_exact(arm: &Arm, lagrangian: &Lagrangian, peak: Option<&[f64]>, fract
 ///
 /// Cheap means few multiplications and additions of the code, with every sine-cosine pair as
 /// [`crate::graph::TRIG_PAIR`]. The families of a larger fraction hold those of a smaller one, certificates do not depend on
-/// it, and the first member in ascending price that is certified is taken, so that a larger fraction never costs more.
+/// it, and the first certified member in ascending cost is taken, so that a larger fraction never costs more.
 pub fn cheapest(request: &ToleranceRequest, fraction: f64) -> Model {
     let Some(scale) = request.scale.filter(|scale| scale.peak.iter().all(|&peak| peak > 0.0)) else {
         return request.unreduced();
@@ -147,7 +147,7 @@ pub fn cheapest(request: &ToleranceRequest, fraction: f64) -> Model {
     simpler.or(best).unwrap_or_else(|| request.unreduced())
 }
 
-/// The sparse models that are cheaper than the exact one, by price.
+/// The sparse models that are cheaper than the exact one, in ascending cost.
 fn sparse(
     request: &ToleranceRequest,
     scale: &TorqueScale,
@@ -156,20 +156,20 @@ fn sparse(
     fraction: f64,
 ) -> Vec<Model> {
     let ToleranceRequest { arm, lagrangian, exact, .. } = *request;
-    let most = BEYOND * fraction;
+    let beyond = BEYOND * fraction;
     let absolute = Coordinates::of(arm).and_then(|coordinates| Absolute::new(lagrangian, coordinates));
     let family = match absolute.map(Arc::new) {
-        None => sparse::family(&SparseProblem { lagrangian, absolute: None, shares, points }, most),
+        None => sparse::family(&SparseProblem { lagrangian, absolute: None, shares, points }, beyond),
         Some(absolute) => {
             let shares = scale.shares(|i| scale.rates.multipliers_in(&absolute, i));
             let (lagrangian, absolute) = (&absolute.lagrangian, Some(&absolute));
-            sparse::family(&SparseProblem { lagrangian, absolute, shares: &shares, points }, most)
+            sparse::family(&SparseProblem { lagrangian, absolute, shares: &shares, points }, beyond)
         }
     };
-    let dear = exact.1.operations().cost();
+    let most = exact.1.operations().cost();
     let mut choices: Vec<Model> = family
         .into_par_iter()
-        .filter(|member| member.cost as f64 <= SHARED * dear as f64)
+        .filter(|member| member.cost as f64 <= SHARED * most as f64)
         .map(|member| {
             let reduced = member.model.reduced(lagrangian);
             let code = match reduced.sparse() {
@@ -178,7 +178,7 @@ fn sparse(
             };
             Model { reduced, form: Form::Sparse, code }
         })
-        .filter(|choice| choice.cost() < dear)
+        .filter(|choice| choice.cost() < most)
         .collect();
     choices.sort_by_key(Model::cost);
     choices

@@ -25,7 +25,12 @@ fn write(out: &mut impl Write, text: &str) -> Result<(), Error> {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         Err(error) => {
             let problem = format!("cannot be written ({error})");
-            Err(Error::input(Path::new("standard output"), "", problem, "make room, or send it elsewhere"))
+            Err(Error::input(
+                Path::new("standard output"),
+                "",
+                problem,
+                "free some space, or write to another place",
+            ))
         }
         Ok(()) => Ok(()),
     }

@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::load::Loaded;
 use crate::text::escaped;
 
-/// An unoptimised generator that takes longer is worth a word.
+/// An unoptimised generator that takes longer is reported.
 const LONG: Duration = Duration::from_secs(5);
 /// How the generator is compiled.
 const OPT_LEVEL: &str = env!("GRAMFORGE_OPT_LEVEL");
@@ -22,7 +22,7 @@ const OPT_LEVEL: &str = env!("GRAMFORGE_OPT_LEVEL");
 pub(super) fn run(config: &Config, out: &mut impl Write) -> bool {
     let start = Instant::now();
     let loaded = config.load();
-    // Told before the work begins: they must stand, too, where it fails or is interrupted.
+    // Print this first, so that cargo knows the files even if the work fails or is interrupted.
     let told = watch(config, &loaded, out);
     let names: Vec<String> = loaded.iter().filter_map(module_name).collect();
     let result = config.folder().and_then(|folder| {
@@ -37,18 +37,19 @@ pub(super) fn run(config: &Config, out: &mut impl Write) -> bool {
         written.inspect_err(|error| modules.spoil(&names, &error.to_string()))
     });
     let done = result.is_ok();
-    let told = told.and_then(|()| slow(start.elapsed(), out));
+    let told = told.and_then(|()| slow(start.elapsed(), OPT_LEVEL, out));
     told.and_then(|()| conclude(result, out)).is_ok() && done
 }
 
-/// Warns where the generator took long and is not optimised, as cargo compiles build scripts.
-fn slow(taken: Duration, out: &mut impl Write) -> io::Result<()> {
-    if taken < LONG || OPT_LEVEL != "0" {
+/// Warns if the generator was compiled without optimisation (`level` is "0"), as cargo compiles build scripts, and took
+/// long.
+fn slow(taken: Duration, level: &str, out: &mut impl Write) -> io::Result<()> {
+    if taken <= LONG || level != "0" {
         return Ok(());
     }
     let seconds = taken.as_secs();
     let advice = format!(
-        "Gramforge took {seconds} s, compiled with opt-level {OPT_LEVEL}; write `opt-level = 3` in `[profile.dev.build-override]` and \
+        "Gramforge took {seconds} s, compiled with opt-level {level}; write `opt-level = 3` in `[profile.dev.build-override]` and \
          `[profile.release.build-override]` of Cargo.toml, and it takes less than a tenth"
     );
     directive(out, "cargo:warning=", &advice)
@@ -98,7 +99,9 @@ fn module_name(loaded: &Result<Loaded, Error>) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::directive;
+    use std::time::Duration;
+
+    use super::{directive, slow};
 
     #[test]
     fn a_directive_never_becomes_two() {
@@ -106,5 +109,25 @@ mod tests {
         directive(&mut out, "cargo:warning=", "a\ncargo:rustc-link-arg=x\r\u{2028}\u{202e}").unwrap();
         let text = String::from_utf8(out).unwrap();
         assert_eq!(text, "cargo:warning=a\\ncargo:rustc-link-arg=x\\r\\u{2028}\\u{202e}\n");
+    }
+
+    #[test]
+    fn a_slow_generator_without_optimisation_is_reported() {
+        let told = |taken: f64, level: &str| {
+            let mut out = Vec::new();
+            slow(Duration::from_secs_f64(taken), level, &mut out).unwrap();
+            String::from_utf8(out).unwrap()
+        };
+        let warning = told(54.2, "0");
+        assert!(
+            warning.starts_with("cargo:warning=Gramforge took 54 s, compiled with opt-level 0; "),
+            "{warning}"
+        );
+        assert!(warning.contains("`[profile.dev.build-override]`") && warning.contains("`opt-level = 3`"));
+        assert_eq!(warning.lines().count(), 1);
+        assert!(!told(5.001, "0").is_empty());
+        for (taken, level) in [(5.0, "0"), (0.0, "0"), (54.2, "1"), (54.2, "3"), (54.2, "s")] {
+            assert_eq!(told(taken, level), "", "{taken} s at opt-level {level}");
+        }
     }
 }

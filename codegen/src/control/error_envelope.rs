@@ -233,7 +233,7 @@ impl ClosedLoop<'_> {
 
     /// The level that V never leaves and what follows, with ΔC of that level; `None` where no level holds it.
     ///
-    /// V1 = V + ½θ_eᵀPθθθ_e falls wherever V is outside the ball, so V ≤ V1 ≤ max(V1(0), ball + max ½θ_eᵀPθθθ_e).
+    /// V1 = V + ½θ_eᵀPθθθ_e falls wherever V is above its ultimate bound V_u, so V ≤ V1 ≤ max(V1(0), V_u + max ½θ_eᵀPθθθ_e).
     pub(super) fn invariant_level(&self, v_max: f64, start: &[f64]) -> Result<Option<Envelope>, Error> {
         let mut level = v_max + self.learning.as_ref().map_or(0.0, |learning| learning.start);
         for _ in 0..ROUNDS {

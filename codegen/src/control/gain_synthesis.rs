@@ -41,7 +41,7 @@ pub(super) fn tune(stage: &Stage, request: &GainRequest) -> Result<Tuning, Error
         obstacles.push("the bounds on D over the domain cannot be certified".to_string());
     }
     if !obstacles.is_empty() {
-        let help = "change the motion, the measure or the limits: no gains alter that";
+        let help = "change the motion, the measure or the limits: gains cannot remove this obstacle";
         faults.push("control.design", format!("cannot be met: {}", obstacles.join("; ")), help);
         return Err(faults.into_error());
     }
@@ -50,7 +50,7 @@ pub(super) fn tune(stage: &Stage, request: &GainRequest) -> Result<Tuning, Error
         faults.push(
             if asked.is_some() { "control.design.tube" } else { "control.initial_error.position" },
             format!(
-                "cannot be met: joint {} starts with an error of {}, and may have {}",
+                "cannot be met: joint {} starts with an error of {}, but only {} is allowed",
                 i + 1,
                 start[i],
                 target.room[i]
@@ -119,7 +119,7 @@ fn too_weak(nearest: &GainCandidate, faults: &mut Diagnostics) {
         nearest.judged.guarantee.reasons.iter().filter(asks).map(String::as_str).collect();
     faults.push(
         "control.design",
-        format!("cannot be met: with the gains that come nearest {}", reasons.join("; ")),
+        format!("cannot be met: with the best gains found, {}", reasons.join("; ")),
         "take a smaller initial error, allow more time to converge, or raise the torque limits if the drives bear it",
     );
 }
@@ -152,7 +152,7 @@ fn too_narrow(
     let errors = &nearest.judged.envelope.position_error;
     if !nearest.position_bound.is_finite() {
         let help = "keep more functions in `model`, shorten the period, or compensate Coulomb friction";
-        let problem = "cannot be met: what the model leaves out, and friction, drive every gain's level of V up without end";
+        let problem = "cannot be met: what the model leaves out, and friction, raise the level of V without limit, whatever the gains";
         faults.push("control.design", problem, help);
         return Ok(());
     }

@@ -3,22 +3,18 @@
 use super::adaptation::{Adaptation, Learning, regression};
 use super::error_envelope::{ClosedLoop, Envelope, Fixed, Load};
 use super::feedforward::Feedforward;
-use super::form::{Fastest, Form, InertiaBounds, fastest, inertia_bounds, initial_level, total};
+use super::form::{Form, InertiaBounds, inertia_bounds, initial_level};
 use super::inertia::Inertia;
 use super::limits::Longest;
 use super::region::{cells, outside, position_bound, start};
 use super::rounding::Rounding;
+use super::tube_needed::shape;
 use super::{DesignProblem, family};
 use crate::bounds::Rates;
 use crate::check::InitialError;
 use crate::error::Error;
 use crate::number;
 use crate::spec::LawSpec;
-
-/// Halvings of the interval in which the largest initial error lies.
-const HALVINGS: u32 = 30;
-/// Rounds in which the smallest sufficient tube must close.
-const ROUNDS: usize = 6;
 
 /// The promises about a closed loop without torque limits, and whether they hold.
 ///
@@ -104,15 +100,11 @@ impl Parts<'_> {
     }
 
     pub(super) fn judge(self) -> Result<Judgement, Error> {
-        let DesignProblem { arm, domain, motion, bounds, control, lagrangian, uncertainty, .. } =
-            *self.problem;
+        let DesignProblem { arm, domain, motion, bounds, control, .. } = *self.problem;
         let n = arm.dof();
         let own = domain.width().unwrap_or(vec![0.0; n]);
         let over = cells(domain, &own);
-        let wide: Vec<f64> =
-            own.iter().zip(&control.initial_error.position).map(|(a, b)| a.max(*b).max(1.0)).collect();
-        let position_bound = position_bound(&cells(domain, &wide), n);
-        let inertia = Inertia::of_family(arm, uncertainty, lagrangian, &position_bound, self.problem.angles);
+        let (inertia, position_bound) = self.inertia(&own);
         let facts = match self.facts {
             Some(facts) => facts.clone(),
             None => inertia_bounds(&inertia, over.clone(), self.gains, &self.form),
@@ -126,21 +118,11 @@ impl Parts<'_> {
         let v_max = level(position);
         let level_found = closed_loop.invariant_level(v_max, position)?;
         let settled = level_found.is_some();
-        let mut reasons = Vec::new();
-        let envelope = match level_found {
-            Some(envelope) => envelope,
-            None => {
-                reasons.push(format!(
-                    "no level of V is found that the law keeps it below: {}",
-                    more(control.law)
-                ));
-                closed_loop.envelope_at(v_max, position)?
-            }
-        };
+        let mut reasons: Vec<String> = (!settled).then(|| unsettled(control.law)).into_iter().collect();
+        let envelope = level_found.map_or_else(|| closed_loop.envelope_at(v_max, position), Ok)?;
         let delta_c = bounds.coriolis(&envelope.speed);
         let k_star = family::smallest_multiple(&delta_c);
         let delta_c1 = control.delta_c1.clone().unwrap_or_else(|| family::multiple_of_identity(k_star, n));
-
         let load = closed_loop.load(&envelope.position_error, &envelope.velocity_error, &delta_c);
         let (rates, _) = closed_loop.rates(&envelope.position_error, &envelope.velocity_error);
         if self.constant {
@@ -156,10 +138,13 @@ impl Parts<'_> {
         } else {
             self.longest_period(&inertia, over.clone(), &delta_c1, &closed_loop, &load.gain)
         };
-        let final_error = if self.sketch {
-            envelope.position_error.clone()
+        let (final_error, initial_error_max) = if self.sketch {
+            (envelope.position_error.clone(), position.clone())
         } else {
-            closed_loop.final_error(&inertia, over, &envelope, &delta_c)?
+            (
+                closed_loop.final_error(&inertia, over, &envelope, &delta_c)?,
+                self.largest_initial_error(&closed_loop, &shape(position, &own), level)?,
+            )
         };
 
         reasons.extend(self.period_reasons(facts.certified, &longest));
@@ -168,20 +153,11 @@ impl Parts<'_> {
         reasons.extend(self.chatter(&closed_loop, &load, &envelope));
         let leaves = outside(domain, motion, arm, &envelope.position_error);
         let wanted = !self.sketch && (self.problem.seek_tube || control.require_guarantee);
-        let tube_needed = if !facts.certified || !wanted {
-            None
-        } else if leaves.is_empty() || domain.width().is_none() {
-            Some(envelope.position_error.clone())
-        } else {
-            self.smallest_tube(&inertia, &envelope, position, &position_bound)?
+        let tube_needed = match facts.certified && wanted {
+            true if leaves.is_empty() || domain.width().is_none() => Some(envelope.position_error.clone()),
+            true => self.smallest_tube(&inertia, &envelope, position, &position_bound)?,
+            false => None,
         };
-        let inside = |share: f64, shape: &[f64]| -> Result<bool, Error> {
-            let scaled: Vec<f64> = shape.iter().map(|e| e * share).collect();
-            let settled = closed_loop.invariant_level(level(&scaled), &scaled)?;
-            Ok(settled.is_some_and(|e| outside(domain, motion, arm, &e.position_error).is_empty()))
-        };
-        let initial_error_max =
-            if self.sketch { position.clone() } else { largest_share(&shape(position, &own), inside)? };
         if !leaves.is_empty() {
             reasons.push(leaves.join("; "));
         }
@@ -208,7 +184,17 @@ impl Parts<'_> {
         })
     }
 
-    fn closed_loop<'b>(
+    /// D over a domain of the half width `width`, and the largest |q| that it is enclosed for, by joint.
+    fn inertia(&self, width: &[f64]) -> (Inertia, Vec<f64>) {
+        let DesignProblem { arm, domain, control, lagrangian, uncertainty, angles, .. } = *self.problem;
+        let wide: Vec<f64> =
+            width.iter().zip(&control.initial_error.position).map(|(a, b)| a.max(*b).max(1.0)).collect();
+        let position_bound = position_bound(&cells(domain, &wide), arm.dof());
+        let inertia = Inertia::of_family(arm, uncertainty, lagrangian, &position_bound, angles);
+        (inertia, position_bound)
+    }
+
+    pub(super) fn closed_loop<'b>(
         &'b self,
         inertia: &'b InertiaBounds,
         position_bound: &[f64],
@@ -243,35 +229,6 @@ impl Parts<'_> {
         })
     }
 
-    fn longest_period(
-        &self,
-        inertia: &Inertia,
-        over: Vec<super::inertia::Cell>,
-        delta_c1: &[Vec<f64>],
-        closed_loop: &ClosedLoop,
-        gain: &[f64],
-    ) -> Longest {
-        let control = self.problem.control;
-        let n = gain.len();
-        let mut slope: Vec<f64> = match self.layer() {
-            Some(phi) if control.law.is_robust() => {
-                gain.iter().zip(phi).map(|(rho, phi)| rho / phi).collect()
-            }
-            _ => vec![0.0; n],
-        };
-        if let Some(learning) = &closed_loop.learning {
-            // Stability of small motions: what learning does in large ones counts in the ball.
-            let (rates, _) = closed_loop.rates(&vec![0.0; n], &vec![0.0; n]);
-            let more = learning.gain(&rates, self.tuning.period);
-            slope.iter_mut().zip(more).for_each(|(slope, more)| *slope += more);
-        }
-        let zero = vec![vec![0.0; n]; n];
-        let more = if self.has_matrix() { delta_c1 } else { &zero };
-        let pull = super::verified::largest_eigenvalue(&crate::numerics::linalg::dense(&self.gains.p12));
-        let Fastest { rate, certified } = fastest(inertia, over, &total(&self.gains.damping, more, &slope));
-        Longest { period: 2.0 / (rate + pull), certified }
-    }
-
     pub(super) fn layer(&self) -> Option<&[f64]> {
         self.tuning.boundary_layer.as_deref()
     }
@@ -282,37 +239,11 @@ impl Parts<'_> {
             && control.law.has_bracket()
             && control.coriolis_term == crate::spec::CoriolisTermSpec::Matrix
     }
-
-    /// Widens the tube to the errors of the one before until it holds them.
-    fn smallest_tube(
-        &self,
-        inertia: &Inertia,
-        envelope: &Envelope,
-        start: &[f64],
-        position_bound: &[f64],
-    ) -> Result<Option<Vec<f64>>, Error> {
-        let DesignProblem { domain, .. } = *self.problem;
-        let mut tube = envelope.position_error.clone();
-        for _ in 0..ROUNDS {
-            let facts = inertia_bounds(inertia, cells(domain, &tube), self.gains, &self.form);
-            let Some(next) =
-                self.closed_loop(&facts, position_bound)?.invariant_level(envelope.v_max, start)?
-            else {
-                return Ok(None);
-            };
-            let next = next.position_error;
-            if facts.certified && next.iter().zip(&tube).all(|(a, b)| *a <= b * (1.0 + 1e-9)) {
-                return Ok(Some(next));
-            }
-            tube = next.iter().zip(&tube).map(|(a, b)| 1.02 * a.max(*b)).collect();
-        }
-        Ok(None)
-    }
 }
 
-/// What helps a law that holds no level of V.
-fn more(law: LawSpec) -> &'static str {
-    match law {
+/// What is said of a law that holds no level of V.
+fn unsettled(law: LawSpec) -> String {
+    let more = match law {
         LawSpec::Exact => {
             "raise W or Omega, or take law `report` or `tight`, which outweigh what the model leaves out"
         }
@@ -320,31 +251,6 @@ fn more(law: LawSpec) -> &'static str {
         LawSpec::Adaptive => {
             "raise W or Omega, narrow the boundary layer or the intervals of uncertainty, or lower Ptheta"
         }
-    }
-}
-
-/// The direction in which the initial error is scaled.
-fn shape(position: &[f64], width: &[f64]) -> Vec<f64> {
-    [position, width]
-        .into_iter()
-        .find(|s| s.iter().any(|e| *e > 0.0))
-        .map_or(vec![1.0; width.len()], <[f64]>::to_vec)
-}
-
-/// The largest multiple of `shape`, up to half a turn (3.14 m), for which `inside` holds.
-fn largest_share(
-    shape: &[f64],
-    inside: impl Fn(f64, &[f64]) -> Result<bool, Error>,
-) -> Result<Vec<f64>, Error> {
-    let most = std::f64::consts::PI / shape.iter().fold(0.0_f64, |m, e| m.max(*e));
-    let (mut good, mut bad) = (0.0, most);
-    if inside(most, shape)? {
-        good = most;
-    } else {
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (good + bad);
-            if inside(middle, shape)? { good = middle } else { bad = middle }
-        }
-    }
-    Ok(shape.iter().map(|e| e * good).collect())
+    };
+    format!("no level of V is found that the law keeps it below: {more}")
 }

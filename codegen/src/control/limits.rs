@@ -3,8 +3,12 @@
 use super::DesignProblem;
 use super::error_envelope::ClosedLoop;
 use super::first_step::{Start, asked};
+use super::form::{Fastest, fastest, total};
 use super::guarantee::Parts;
+use super::inertia::{Cell, Inertia};
+use super::verified::largest_eigenvalue;
 use crate::number::{scientific, short};
+use crate::numerics::linalg::dense;
 
 /// The longest period, s, and whether nothing in the domain is faster than it supposes.
 pub(super) struct Longest {
@@ -93,5 +97,35 @@ impl Parts<'_> {
             }
         }
         (share, reasons)
+    }
+
+    /// The longest period that the whole gain on s and P12 allow.
+    pub(super) fn longest_period(
+        &self,
+        inertia: &Inertia,
+        over: Vec<Cell>,
+        delta_c1: &[Vec<f64>],
+        closed_loop: &ClosedLoop,
+        gain: &[f64],
+    ) -> Longest {
+        let control = self.problem.control;
+        let n = gain.len();
+        let mut slope: Vec<f64> = match self.layer() {
+            Some(phi) if control.law.is_robust() => {
+                gain.iter().zip(phi).map(|(rho, phi)| rho / phi).collect()
+            }
+            _ => vec![0.0; n],
+        };
+        if let Some(learning) = &closed_loop.learning {
+            // Stability of small motions: what learning does in large ones counts in the ultimate bound.
+            let (rates, _) = closed_loop.rates(&vec![0.0; n], &vec![0.0; n]);
+            let more = learning.gain(&rates, self.tuning.period);
+            slope.iter_mut().zip(more).for_each(|(slope, more)| *slope += more);
+        }
+        let zero = vec![vec![0.0; n]; n];
+        let more = if self.has_matrix() { delta_c1 } else { &zero };
+        let pull = largest_eigenvalue(&dense(&self.gains.p12));
+        let Fastest { rate, certified } = fastest(inertia, over, &total(&self.gains.damping, more, &slope));
+        Longest { period: 2.0 / (rate + pull), certified }
     }
 }

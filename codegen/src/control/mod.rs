@@ -11,6 +11,7 @@ mod gains;
 mod guarantee;
 mod inertia;
 mod limits;
+mod mix;
 mod region;
 mod rounding;
 mod search;
@@ -18,6 +19,7 @@ mod settling;
 mod step;
 #[cfg(test)]
 mod tests;
+mod tube_needed;
 mod ultimate_bound;
 mod verified;
 

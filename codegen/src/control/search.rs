@@ -8,20 +8,15 @@ use super::Stage;
 use super::form::{BUDGET, TOLERANCE, fastest};
 use super::guarantee::Judgement;
 use super::inertia::Inertia;
+use super::mix::{GRADED, LINEAR, Mix, START, STIFF, diagonal};
 use super::region::{cells, position_bound};
 use crate::check::Tuning;
 use crate::error::Error;
 
-/// Share of the sampled loop's limit that gains aim at, and that they may use: ρ, and ΔC1, are known afterwards.
-const AIMED: f64 = 0.7;
+/// Share of the sampled loop's limit that gains may use.
 const USED: f64 = 0.85;
-/// A layer narrower than this share of what the errors make of s in the room brings nothing.
-const NARROW: f64 = 0.01;
 /// Judgements in which ρ and the layer made for it must agree.
 const ROUNDS: usize = 4;
-/// Ratio from one P12 that is tried to the next, and their number.
-const STEP: f64 = 1.05;
-const STEPS: i32 = 50;
 /// Halvings of the interval of exponents in which the smallest gain lies, and its lower end.
 const HALVINGS: u32 = 6;
 const SOFTEST: f64 = 1.0 / 256.0;
@@ -38,25 +33,6 @@ pub(super) struct Target {
     /// What |q_e| must stay within, by joint, rad or m.
     pub(super) room: Vec<f64>,
 }
-
-/// How the gain that a joint bears is shared out.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Mix {
-    /// Share of K; the rest is the slope of the layer.
-    linear: f64,
-    /// Largest share of Pqq Ω⁻¹ Pqq in K.
-    stiff: f64,
-    /// From 0, the same ½ q_eᵀPqq q_e at the ends of the room for all joints, to 1, Pqq in proportion to K.
-    graded: f64,
-    /// Largest K_ii/d_ii, 1/s: heavy joints need not take all that they bear.
-    cap: f64,
-}
-
-/// The mix from which the search starts, and the values that it tries.
-const START: Mix = Mix { linear: 0.5, stiff: 0.25, graded: 0.5, cap: f64::INFINITY };
-const LINEAR: [f64; 4] = [0.35, 0.5, 0.65, 0.8];
-const STIFF: [f64; 4] = [0.12, 0.25, 0.4, 0.55];
-const GRADED: [f64; 3] = [0.0, 0.5, 1.0];
 
 /// Gains and how near they come to the target.
 pub(super) struct GainCandidate {
@@ -75,10 +51,10 @@ pub(super) struct Scene<'a> {
     pub(super) stage: &'a Stage<'a>,
     pub(super) target: &'a Target,
     /// Largest (D⁻¹)_ii and d_ii over the domain.
-    mobility: Vec<f64>,
-    heaviest: Vec<f64>,
+    pub(super) mobility: Vec<f64>,
+    pub(super) heaviest: Vec<f64>,
     /// λ_max(D⁻¹ diag(1/(D⁻¹)_ii)): what coupling adds to the joints by themselves.
-    coupling: f64,
+    pub(super) coupling: f64,
     /// Whether these could be certified.
     pub(super) certified: bool,
 }
@@ -251,67 +227,6 @@ impl<'a> Scene<'a> {
         let holds = judged.guarantee.holds && position_bound <= 1.0 && pace <= 1.0;
         GainCandidate { tuning, score: position_bound.max(pace), position_bound, holds, judged }
     }
-
-    /// Gains with the smallest P12 = λI that is fast enough; `None` where there is none.
-    fn tuning(&self, period: f64, gain: f64, mix: Mix, rho: &[f64]) -> Option<Tuning> {
-        let robust = self.stage.problem.control.law.is_robust();
-        let linear = if robust { mix.linear } else { 1.0 };
-        let slowest = 3.0 / self.target.time;
-        let pull = (0..STEPS).map(|k| slowest * power(STEP, k)).find(|&pull| {
-            let Some(kappa) = self.kappa(period, gain, pull) else { return false };
-            let damping = self.linear(linear * kappa, mix);
-            let pqq = self.stiffness(&damping, pull, mix);
-            (0..damping.len()).all(|i| {
-                settling_time(damping[i] / self.heaviest[i], pull, pqq[i] / (pull * damping[i]))
-                    <= self.target.time
-            })
-        })?;
-        let kappa = self.kappa(period, gain, pull)?;
-        let damping = self.linear(linear * kappa, mix);
-        let pqq = self.stiffness(&damping, pull, mix);
-        let w: Vec<f64> = damping.iter().zip(&pqq).map(|(k, p)| k - p / pull).collect();
-        let slope = self.borne((1.0 - linear) * kappa);
-        let layer = |i: usize| (rho[i] / slope[i]).max(NARROW * pull * self.target.room[i]);
-        Some(Tuning {
-            w: diagonal(&w),
-            omega: diagonal(&pqq.iter().map(|p| pull * p).collect::<Vec<_>>()),
-            pqq: diagonal(&pqq),
-            boundary_layer: robust.then(|| (0..w.len()).map(layer).collect()),
-            period,
-        })
-    }
-
-    /// κ, the gain on s relative to inertia, 1/s.
-    fn kappa(&self, period: f64, gain: f64, pull: f64) -> Option<f64> {
-        Some(gain * (2.0 * AIMED / period - pull) / self.coupling).filter(|kappa| *kappa > 0.0)
-    }
-
-    fn borne(&self, kappa: f64) -> Vec<f64> {
-        self.mobility.iter().map(|m| kappa / m).collect()
-    }
-
-    fn linear(&self, kappa: f64, mix: Mix) -> Vec<f64> {
-        self.borne(kappa).iter().zip(&self.heaviest).map(|(k, d)| k.min(mix.cap * d)).collect()
-    }
-
-    /// Pqq, such that Pqq Ω⁻¹ Pqq is at most the mix's share of `damping`.
-    fn stiffness(&self, damping: &[f64], pull: f64, mix: Mix) -> Vec<f64> {
-        let shape: Vec<f64> = (self.target.room.iter().zip(damping))
-            .map(|(room, k)| libm::pow(*k, mix.graded) * libm::pow(room * room, mix.graded - 1.0))
-            .collect();
-        let room = shape.iter().zip(damping).map(|(s, k)| k / s).fold(f64::INFINITY, f64::min);
-        shape.iter().map(|s| mix.stiff * pull * room * s).collect()
-    }
-
-    /// The shortest time for which `period` bears fast enough gains at all, s.
-    pub(super) fn shortest_time(&self, period: f64) -> Option<f64> {
-        let none = vec![0.0; self.mobility.len()];
-        (1..200).map(|k| self.target.time * power(STEP, k)).find(|&time| {
-            let target = Target { time, room: self.target.room.clone() };
-            let scene = self.for_target(&target);
-            STIFF.into_iter().any(|stiff| scene.tuning(period, 1.0, Mix { stiff, ..START }, &none).is_some())
-        })
-    }
 }
 
 /// The geometric middle between `high` and the smallest number above `low` for which `holds`.
@@ -322,47 +237,4 @@ fn middle(low: f64, high: f64, holds: impl Fn(f64) -> Result<bool, Error>) -> Re
         if holds(between)? { above = between } else { below = between }
     }
     Ok(libm::sqrt(above * high))
-}
-
-/// Time until q_e of one joint, at rest at the start, is at 1/20 of its initial value: d ṡ = −K s + Pqq q_e,
-/// q̇_e = −λ q_e + s with K/d = `rate`, P12 = λ = `pull` and Pqq Ω⁻¹ Pqq the share `stiff` of K, s.
-pub(super) fn settling_time(rate: f64, pull: f64, stiff: f64) -> f64 {
-    let between = libm::sqrt((rate - pull) * (rate - pull) + 4.0 * rate * pull * stiff);
-    let fast = 0.5 * (rate + pull + between);
-    // The difference of the roots' sum and `between` would cancel.
-    let slow = rate * pull * (1.0 - stiff) / fast;
-    libm::log(20.0 * fast / (fast - slow)) / slow
-}
-
-/// base^k by multiplication, the same on every machine.
-fn power(base: f64, k: i32) -> f64 {
-    (0..k).fold(1.0, |product, _| product * base)
-}
-
-fn diagonal(entries: &[f64]) -> Vec<Vec<f64>> {
-    let n = entries.len();
-    (0..n).map(|i| (0..n).map(|j| if i == j { entries[i] } else { 0.0 }).collect()).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_settling_time_is_that_of_the_joint() {
-        for (rate, pull, stiff) in [(40.0, 2.0, 0.25), (12.0, 3.0, 0.5), (400.0, 1.0, 0.1), (5.0, 5.0, 0.4)] {
-            let time = settling_time(rate, pull, stiff);
-            // q_e and s = q̇_e + λ q_e by small steps, from rest.
-            let steps = 200_000;
-            let h = time / f64::from(steps);
-            let (mut q, mut s) = (1.0, pull);
-            for _ in 0..steps {
-                let (dq, ds) = (s - pull * q, rate * (stiff * pull * q - s));
-                let (mq, ms) = (q + 0.5 * h * dq, s + 0.5 * h * ds);
-                (q, s) = (q + h * (ms - pull * mq), s + h * rate * (stiff * pull * mq - ms));
-            }
-            println!("K/d {rate}, λ {pull}, share {stiff}: 1/20 after {time:.3} s, there {q:.5}");
-            assert!((0.04..=0.05 + 1e-4).contains(&q), "{q}");
-        }
-    }
 }

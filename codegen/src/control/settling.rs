@@ -1,4 +1,4 @@
-//! How long the joints take together: the coupled loop D ṡ = −K s + Pqq q_e, q̇_e = −P12 q_e + s with a constant D.
+//! How long the joints take, each by itself and all together: the coupled loop D ṡ = −K s + Pqq q_e, q̇_e = −P12 q_e + s with a constant D.
 
 use super::gains::Gains;
 use super::search::{GainCandidate, Scene, Target};
@@ -114,10 +114,19 @@ fn at(arm: &Arm, q: &[f64], gains: &Gains, start: &[f64], most: f64) -> f64 {
     if last >= most * (1.0 - 1e-9) { f64::INFINITY } else { last }
 }
 
+/// Time until q_e of one joint, at rest at the start, is at 1/20 of its initial value: d ṡ = −K s + Pqq q_e,
+/// q̇_e = −λ q_e + s with K/d = `rate`, P12 = λ = `pull` and Pqq Ω⁻¹ Pqq the share `stiff` of K, s.
+pub(super) fn settling_time(rate: f64, pull: f64, stiff: f64) -> f64 {
+    let between = libm::sqrt((rate - pull) * (rate - pull) + 4.0 * rate * pull * stiff);
+    let fast = 0.5 * (rate + pull + between);
+    // The difference of the roots' sum and `between` would cancel.
+    let slow = rate * pull * (1.0 - stiff) / fast;
+    libm::log(20.0 * fast / (fast - slow)) / slow
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::control::search::settling_time;
     use crate::simulate::example::three_link;
 
     #[test]
@@ -140,5 +149,23 @@ mod tests {
         let wanted = settling_time(k / d, pull, stiff);
         assert!((found - wanted).abs() < 0.05 * wanted, "{found} {wanted}");
         assert!(settling(&arm, None, &tuning, &[0.1], 0.5 * wanted).is_infinite());
+    }
+
+    #[test]
+    fn the_settling_time_is_that_of_the_joint() {
+        for (rate, pull, stiff) in [(40.0, 2.0, 0.25), (12.0, 3.0, 0.5), (400.0, 1.0, 0.1), (5.0, 5.0, 0.4)] {
+            let time = settling_time(rate, pull, stiff);
+            // q_e and s = q̇_e + λ q_e by small steps, from rest.
+            let steps = 200_000;
+            let h = time / f64::from(steps);
+            let (mut q, mut s) = (1.0, pull);
+            for _ in 0..steps {
+                let (dq, ds) = (s - pull * q, rate * (stiff * pull * q - s));
+                let (mq, ms) = (q + 0.5 * h * dq, s + 0.5 * h * ds);
+                (q, s) = (q + h * (ms - pull * mq), s + h * rate * (stiff * pull * mq - ms));
+            }
+            println!("K/d {rate}, λ {pull}, share {stiff}: 1/20 after {time:.3} s, there {q:.5}");
+            assert!((0.04..=0.05 + 1e-4).contains(&q), "{q}");
+        }
     }
 }

@@ -21,7 +21,7 @@ pub(super) fn read(text: &str, faults: &mut Diagnostics) -> Option<Value> {
     let result = node.deserialize(&mut reader).and_then(|value| reader.end().map(|()| value));
     for (field, key) in wrong {
         match key {
-            Key::Repeated => faults.push(field, "stands twice in the same object", "keep one of the two"),
+            Key::Repeated => faults.push(field, "occurs twice in the same object", "keep one of the two"),
             Key::Long(length) => {
                 let help = format!("write at most {LONGEST_KEY}, or remove it");
                 faults.push(field, format!("is a key of {length} characters"), help);

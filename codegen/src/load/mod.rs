@@ -1,6 +1,6 @@
 //! From a file to a [`Spec`] of the right shape: JSON syntax, then structure against the schema.
 //!
-//! What the values mean is judged later, by the stages `arm` and `check`.
+//! The stages `arm` and `check` check later what the values mean.
 
 mod hash;
 mod json;
@@ -28,7 +28,7 @@ pub use plain::plain;
 pub(crate) use reader::text as read_text;
 pub use schema::schema;
 
-/// A specification of the right shape and the files that it rests on.
+/// A specification of the right shape and the files that it names.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loaded {
     /// The specification.
@@ -68,7 +68,7 @@ pub fn load(path: &Path) -> Result<Loaded, Error> {
     parse(&text(path)?, path)
 }
 
-/// Reads as much of the specification file at `path` as can be.
+/// Reads the specification file at `path` as far as possible.
 ///
 /// # Errors
 /// [`Error::Input`] where the file cannot be read.
@@ -88,7 +88,7 @@ fn text(path: &Path) -> Result<String, Error> {
 }
 
 /// Reads a specification from `text`, and the files that it names; `path` is the file that messages name and that
-/// relative paths start from. A named file that cannot be read is told of where it is used.
+/// relative paths start from. A named file that cannot be read is reported where it is used.
 ///
 /// # Errors
 /// [`Error::Input`] with line and column where the text is not JSON, else with every field that is missing,

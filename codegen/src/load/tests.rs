@@ -183,7 +183,7 @@ fn all_faults_are_shown_at_once() {
 fn repeated_keys_are_refused_where_they_stand() {
     let text = ARM3.replace("\"mass\": 4.0,", "\"mass\": 4.0, \"mass\": 5.0,");
     let message = read(&text).expect_err("a fault");
-    assert_eq!(message, "a.json: arm.dh.links[1].mass: stands twice in the same object; keep one of the two");
+    assert_eq!(message, "a.json: arm.dh.links[1].mass: occurs twice in the same object; keep one of the two");
 }
 
 #[test]

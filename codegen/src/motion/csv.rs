@@ -93,7 +93,7 @@ fn row(record: &csv::StringRecord, dof: usize, before: Option<f64>) -> Result<(f
     let t = numbers.first().copied().unwrap_or_default();
     match before {
         Some(before) if t <= before => {
-            Err((format!("time {t} does not come after {before}"), "write increasing times".to_string()))
+            Err((format!("time {t} is not later than {before}"), "write increasing times".to_string()))
         }
         _ if t > LONGEST => {
             Err((format!("time {t:e} is too late"), format!("write times up to {LONGEST:e}, in s")))

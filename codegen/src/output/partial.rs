@@ -76,7 +76,7 @@ impl Partial {
                 Err(error) => return Err(format!("cannot be written ({error})")),
             }
         }
-        Err("cannot be written (others keep removing the temporary file)".to_string())
+        Err("cannot be written (other processes keep removing the temporary file)".to_string())
     }
 }
 

@@ -25,8 +25,8 @@ use crate::torque::{Form, Regressor};
 
 /// Everything that follows from one specification; read-only.
 ///
-/// Holds: D(q) of a controlled arm was positive definite wherever it was looked at; the motion keeps to the joints' limits;
-/// no bound is exceeded by any state of the domain.
+/// Holds: D(q) of a controlled arm was positive definite at every state that was checked; the motion keeps the joints'
+/// limits; no state of the domain exceeds a bound.
 #[derive(Clone, Debug)]
 pub struct Generation {
     pub(super) designed: Designed,
@@ -58,7 +58,7 @@ impl Generation {
         Self::with_progress(loaded, effort, &Silent)
     }
 
-    /// The same, telling `progress` how far it is.
+    /// The same, with reports to `progress`.
     ///
     /// # Errors
     /// As [`Generation::from_file`].
@@ -76,8 +76,8 @@ impl Generation {
         super::run(loaded, Extent::Whole, Means { effort, progress, cache })
     }
 
-    /// The model alone: as [`Generation::with_progress`], but gains, guarantee and whether D can be inverted are not
-    /// looked at, and [`Generation::design`] is `None`.
+    /// The model alone: as [`Generation::with_progress`], but without gains, guarantee and the check
+    /// that D can be inverted; [`Generation::design`] is `None`.
     ///
     /// # Errors
     /// As [`Generation::from_file`].
@@ -130,7 +130,7 @@ impl Generation {
     }
 }
 
-/// What the stages gave.
+/// The results of the stages.
 impl Generation {
     /// The specification.
     pub fn spec(&self) -> &Spec {
@@ -152,12 +152,12 @@ impl Generation {
         &self.checked().built.given
     }
 
-    /// All arms that the controller must bear.
+    /// All arms for which the controller must work.
     pub fn uncertainty(&self) -> &Uncertainty {
         &self.checked().built.uncertainty
     }
 
-    /// Where the model must be good.
+    /// Where the model must be accurate.
     pub fn domain(&self) -> &Domain {
         &self.checked().domain
     }
@@ -187,7 +187,7 @@ impl Generation {
         &self.proved().exact
     }
 
-    /// What the model leaves out over the domain at most, rounded up to the digits that are printed.
+    /// Bounds on what the model leaves out over the domain, rounded up to the printed digits.
     pub fn bounds(&self) -> &Bounds {
         &self.proved().bounds
     }
@@ -197,7 +197,7 @@ impl Generation {
         self.model().form
     }
 
-    /// What is odd about the specification without being wrong.
+    /// Warnings: what is unusual about the specification, but not wrong.
     pub fn warnings(&self) -> &[String] {
         &self.proved().warnings
     }

@@ -83,7 +83,7 @@ impl<'a> Scenario<'a> {
         let file = generation.path();
         let missing = |field: &str, what: &str| {
             let help = format!("add `{field}` to the specification");
-            Error::input(file, field, format!("is missing, and a simulation needs {what}"), help)
+            Error::input(file, field, format!("is missing, but a simulation needs {what}"), help)
         };
         let control = generation.control().ok_or_else(|| missing("control", "a law"));
         Ok(Self {

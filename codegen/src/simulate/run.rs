@@ -42,12 +42,12 @@ impl<const P: usize> Memory for [f64; P] {
     }
 }
 
-/// A simulated run: the numbers that sum it up, and the course they were taken from.
+/// A simulated run: the numbers that sum it up, and the trace they were taken from.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Run {
     /// Summary.
     pub metrics: Metrics,
-    /// Course.
+    /// What happened at each control instant.
     pub trace: Trace,
 }
 

@@ -57,10 +57,11 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
         qd: &[S::Scalar; N],
         desired: &Desired<S::Scalar, N>,
     ) -> Result<Command<S::Scalar, N>, Fault<S::Scalar, N>> {
-        if !S::FAULTS_REACH_TORQUE
-            && let Some((quantity, joint)) = not_finite(q, qd, desired)
-        {
-            return Err(self.fault(q, quantity, joint));
+        // Two conditions in one `if let` need a newer Rust than this crate asks for.
+        if !S::FAULTS_REACH_TORQUE {
+            if let Some((quantity, joint)) = not_finite(q, qd, desired) {
+                return Err(self.fault(q, quantity, joint));
+            }
         }
         let StepTorque { asked, limited, theta } = S::step(q, qd, desired, &self.theta);
         // 0 times a finite number is 0, so one comparison does for all joints.

@@ -28,13 +28,13 @@
 //!   0.618 rounds by u/2, times |C|: 0.24u. z C(z) < 0.294 rounds by u/4, the sum with 1 by u/2, and the error of y
 //!   counts with sin y ≤ 0.708: 0.36u. Together 1.56u.
 //!
-//! 1.57u = 1.75·10⁻¹⁶ with truncation. `tests/tests/trig.rs` searches for more, near all multiples of π/4 in range:
+//! 1.57u = 1.75·10⁻¹⁶ with truncation. `tests/tests/emitted/trig.rs` searches for more, near all multiples of π/4 in range:
 //! it finds 1.53·10⁻¹⁶.
 //!
 //! # Error in f32: below 1.2·10⁻⁷ for |x| ≤ 6400 rad
 //!
 //! P₁ = 3217/2048 has 12 bits and is within 4.5·10⁻⁶ of π/2, so |k| may reach 2¹². Certified by evaluating every f32
-//! in range (`tests/tests/trig.rs`): the largest error is 1.166·10⁻⁷, at 3.8643 rad.
+//! in range (`tests/tests/emitted/trig.rs`): the largest error is 1.166·10⁻⁷, at 3.8643 rad.
 
 use super::Trig;
 use super::reduction::Reduction;

@@ -1,7 +1,7 @@
 //! No published bound is ever exceeded, and none is much larger than it must be.
 //!
 //! The full version sees a million states an arm, the Panda and a workspace:
-//! `cargo test --release -p gramforge-tests --test certified -- --include-ignored --nocapture`
+//! `cargo test --release -p gramforge-tests --test bounds -- certified:: --include-ignored --nocapture`
 
 mod attack;
 mod errors;

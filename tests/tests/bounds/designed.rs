@@ -14,12 +14,12 @@ const PUMA: &str = include_str!("../../../generated/specs/puma560_xi12.json");
 fn ask(
     text: &str,
     law: &str,
-    wish: Value,
+    request: Value,
     error: f64,
     edit: impl Fn(&mut Value),
 ) -> Result<Generation, String> {
     let mut value: Value = serde_json::from_str(text).unwrap();
-    value["control"] = json!({ "law": law, "design": wish, "initial_error": { "position": error } });
+    value["control"] = json!({ "law": law, "design": request, "initial_error": { "position": error } });
     value["measure"] = json!({ "tube": { "position_error": 0.1 } });
     edit(&mut value);
     let loaded = parse(&value.to_string(), Path::new("arm.json")).map_err(|e| e.to_string())?;
@@ -66,9 +66,9 @@ fn show(design: &Design) {
 
 /// A controller of the three-link arm, by law, convergence time and period.
 fn three_link(law: &str, time: f64, period: Option<f64>) {
-    let mut wish = json!({ "convergence_time": time, "tube": 0.09 });
+    let mut request = json!({ "convergence_time": time, "tube": 0.09 });
     if let Some(period) = period {
-        wish["period"] = json!(period);
+        request["period"] = json!(period);
     }
     let edit = |v: &mut Value| {
         if law == "exact" {
@@ -76,7 +76,7 @@ fn three_link(law: &str, time: f64, period: Option<f64>) {
         }
         v["simulation"] = json!({ "duration": 2.5, "substeps": 4 });
     };
-    let generation = ask(ARM3, law, wish, 0.03, edit).unwrap();
+    let generation = ask(ARM3, law, request, 0.03, edit).unwrap();
     show(generation.design().unwrap());
     judge(law, &generation, 0.09, time, 0.03);
     assert!(generation.module().unwrap().contains("pub const GUARANTEED: bool = true;"));
@@ -88,7 +88,7 @@ fn the_three_link_arm_gets_gains_that_hold() {
     three_link("tight", 0.6, None);
 }
 
-/// `cargo test --release -p gramforge-tests --test designed -- --ignored --nocapture`
+/// `cargo test --release -p gramforge-tests --test bounds -- designed:: --ignored --nocapture`
 #[test]
 #[ignore = "seconds in release mode"]
 fn every_law_gets_gains_that_hold() {
@@ -100,7 +100,7 @@ fn every_law_gets_gains_that_hold() {
 
 #[test]
 fn the_puma_gets_gains_that_hold_and_its_wrist_gets_less() {
-    let wish = json!({ "convergence_time": 1.0, "period": 0.001 });
+    let request = json!({ "convergence_time": 1.0, "period": 0.001 });
     let smooth = |v: &mut Value| {
         v["simulation"] = json!({ "duration": 1.2, "substeps": 2 });
         // Coulomb friction inside the layer keeps a joint where it is: what is left then is `final_error`'s matter.
@@ -108,7 +108,7 @@ fn the_puma_gets_gains_that_hold_and_its_wrist_gets_less() {
             link["motor"].as_object_mut().unwrap().remove("coulomb_friction");
         }
     };
-    let generation = ask(PUMA, "tight", wish, 0.02, smooth).unwrap();
+    let generation = ask(PUMA, "tight", request, 0.02, smooth).unwrap();
     let design = generation.design().unwrap();
     show(design);
     judge("tight", &generation, 0.1, 1.0, 0.02);
@@ -126,8 +126,8 @@ fn the_puma_gets_gains_that_hold_and_its_wrist_gets_less() {
 
 #[test]
 fn gains_that_were_found_are_judged_like_given_ones() {
-    let wish = json!({ "convergence_time": 1.5, "period": 0.002 });
-    let made = ask(ARM3, "tight", wish, 0.02, |_| {}).unwrap();
+    let request = json!({ "convergence_time": 1.5, "period": 0.002 });
+    let made = ask(ARM3, "tight", request, 0.02, |_| {}).unwrap();
     let found = made.design().unwrap();
     let given = ask(ARM3, "tight", json!(null), 0.02, |v| {
         v["control"].as_object_mut().unwrap().remove("design");
@@ -142,8 +142,8 @@ fn gains_that_were_found_are_judged_like_given_ones() {
 }
 
 #[test]
-fn what_cannot_be_met_is_told_and_the_mend_mends() {
-    let tight = |wish: Value, error: f64| ask(ARM3, "tight", wish, error, |_| {});
+fn a_request_that_cannot_be_met_is_refused_and_the_help_helps() {
+    let tight = |request: Value, error: f64| ask(ARM3, "tight", request, error, |_| {});
     let number = |message: &str, before: &str| -> f64 {
         let rest = message.split(before).nth(1).unwrap_or_else(|| panic!("{before} in {message}"));
         rest.split(|c: char| !(c.is_ascii_digit() || c == '.')).next().unwrap().parse().unwrap()

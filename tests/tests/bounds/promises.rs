@@ -7,6 +7,7 @@ use gramforge::Generation;
 use gramforge::internals::control::Design;
 use gramforge::internals::simulate::{Run, Scenario, simulate};
 use gramforge::load::parse;
+use gramforge_tests::gains::RobustLaw;
 use gramforge_tests::random::Random;
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -108,7 +109,7 @@ fn the_longest_period_of_random_loops_is_safe_and_not_timid() {
     sample_periods(10);
 }
 
-/// `cargo test --release -p gramforge-tests --test promises -- --ignored --nocapture`: a minute.
+/// `cargo test --release -p gramforge-tests --test bounds -- promises:: --ignored --nocapture`: a minute.
 #[test]
 #[ignore = "a hundred closed loops: in release mode"]
 fn the_longest_period_of_a_hundred_random_loops() {
@@ -117,22 +118,15 @@ fn the_longest_period_of_a_hundred_random_loops() {
 
 #[test]
 fn errors_end_inside_the_published_ones_while_the_arm_moves() {
-    for (w, pqq, omega, phi, law) in [
-        (40.0, 0.25, 1.0, 0.3, "report"),
-        (40.0, 0.25, 1.0, 0.3, "tight"),
-        (20.0, 1.0, 4.0, 0.6, "tight"),
-        (60.0, 20.0, 60.0, 0.1, "tight"),
-        (80.0, 10.0, 40.0, 0.1, "report"),
+    for law in [
+        RobustLaw::of("report", 40.0, 0.25, 1.0, 0.3),
+        RobustLaw::of("tight", 40.0, 0.25, 1.0, 0.3),
+        RobustLaw::of("tight", 20.0, 1.0, 4.0, 0.6),
+        RobustLaw::of("tight", 60.0, 20.0, 60.0, 0.1),
+        RobustLaw::of("report", 80.0, 10.0, 40.0, 0.1),
     ] {
         let generation = arm3(|v| {
-            let control = &mut v["control"];
-            control["W"] = json!(w);
-            control["Pqq"] = json!(pqq);
-            control["Omega"] = json!(omega);
-            control["boundary_layer"] = json!(phi);
-            control["law"] = json!(law);
-            control["period"] = json!(0.001);
-            control["initial_error"] = json!({ "position": 0.02 });
+            law.write(v, 0.02);
             // The arm never rests, so that what the model leaves out goes on disturbing it.
             let term =
                 |amplitude: f64, frequency: f64| json!([{ "amplitude": amplitude, "frequency": frequency }]);
@@ -146,7 +140,7 @@ fn errors_end_inside_the_published_ones_while_the_arm_moves() {
         let published = &generation.design().unwrap().guarantee.final_error;
         let run = run(&generation);
         let last: Vec<f64> = (0..3).map(|i| largest(&run, i, run.trace.time.len() / 2)).collect();
-        println!("W {w}, Pqq {pqq}, Ω {omega}, φ {phi}, {law}: {last:.5?} within {published:.5?}");
+        println!("{law:?}: {last:.5?} within {published:.5?}");
         assert!(last.iter().zip(published).all(|(e, p)| *e > 0.0 && e <= p));
     }
 }

@@ -1,22 +1,24 @@
 //! Modes `tolerance` and `auto`, and dictionaries with products.
 //!
 //! The full sweep takes the six-joint arms and the Panda:
-//! `cargo test --release -p gramforge-tests --test tolerance -- --include-ignored --nocapture`
+//! `cargo test --release -p gramforge-tests --test bounds -- tolerance:: --include-ignored --nocapture`
+
+mod attack;
+mod rounding;
 
 use std::path::{Path, PathBuf};
 
 use gramforge::Generation;
 use gramforge::internals::bounds::{Effort, Rates};
 use gramforge::internals::choose::why_exact;
-use gramforge::internals::domain::Domain;
 use gramforge::internals::dynamics::inverse_dynamics;
-use gramforge::internals::graph::Graph;
-use gramforge::internals::lagrangian::{Combination, evaluate, expand};
+use gramforge::internals::lagrangian::expand;
 use gramforge::internals::numerics::low_discrepancy::{LowDiscrepancy, in_box};
 use gramforge::internals::reduction::{Dictionary, products};
-use gramforge::internals::torque::recursive;
 use gramforge::load::{Loaded, load};
 use gramforge::spec::{DictionarySpec, MeasureSpec, ModelSpec};
+
+use attack::search;
 
 fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(name).with_extension("json")
@@ -44,133 +46,7 @@ fn within(loaded: &Loaded, torque: f64) -> Generation {
     made(loaded.clone(), ModelSpec::Tolerance { torque })
 }
 
-/// What the torque error is looked for over: positions as a box of variables, and the corners of the rates.
-struct Arena<'a> {
-    generation: &'a Generation,
-    rates: Rates,
-    /// The exact code, of uncertain arms at every vertex of what is uncertain.
-    exact: Vec<Graph>,
-    /// What is left of the coefficients that are simplified, with their bounds.
-    left: Vec<(Combination, f64)>,
-}
-
-/// A state: variables in the unit cube, the last one the time of a motion; bits say which rates are negative.
-#[derive(Clone)]
-struct State {
-    unit: Vec<f64>,
-    signs: usize,
-}
-
-impl Arena<'_> {
-    fn new(generation: &Generation) -> Arena<'_> {
-        let rates = match (generation.domain(), &generation.motion()) {
-            (Domain::Workspace(_), _) | (_, None) => Rates::limits(generation.arm()).unwrap(),
-            (_, Some(motion)) => Rates::of(motion),
-        };
-        let (arm, uncertainty, exact_code) =
-            (generation.arm(), generation.uncertainty(), generation.exact_code());
-        let vertices = uncertainty.vertices().map(|u| recursive(&uncertainty.at(arm, &u)));
-        let exact =
-            if uncertainty.is_empty() { vec![exact_code.clone()] } else { vertices.collect::<Vec<_>>() };
-        let left = |m: usize| {
-            (generation.reduced().residual(generation.lagrangian(), m), generation.certificates()[m].bound)
-        };
-        let left =
-            (0..generation.certificates().len()).filter(|&m| generation.reduced().simplified[m]).map(left);
-        Arena { generation, rates, exact, left: left.collect() }
-    }
-
-    fn position(&self, unit: &[f64]) -> Vec<f64> {
-        let n = self.generation.arm().dof();
-        match (self.generation.domain(), &self.generation.motion()) {
-            (Domain::Workspace(limits), _) => in_box(limits, &unit[..n]),
-            (Domain::Tube(_, errors), Some(motion)) => {
-                let centre = motion.at(motion.duration() * unit[n]).q;
-                centre.iter().zip(errors).zip(unit).map(|((q, e), u)| q + e * (2.0 * u - 1.0)).collect()
-            }
-            (_, Some(motion)) => motion.at(motion.duration() * unit[n]).q,
-            (_, None) => unreachable!("a domain around no motion"),
-        }
-    }
-
-    /// |emitted − exact| by joint, as parts of what is certified; no coefficient is further off than its bound.
-    fn parts(&self, state: &State) -> Vec<f64> {
-        let n = self.generation.arm().dof();
-        let q = self.position(&state.unit);
-        if !self.left.is_empty() {
-            let psi = self.generation.lagrangian().evaluate_functions(&q);
-            for (terms, bound) in &self.left {
-                assert!(evaluate(terms, &psi).abs() <= *bound);
-            }
-        }
-        let corner = |rate: &[f64], from: usize| -> Vec<f64> {
-            let sign = |i: usize| if state.signs >> (from + i) & 1 == 1 { -1.0 } else { 1.0 };
-            (0..n).map(|i| sign(i) * rate[i]).collect()
-        };
-        let (v, w) = (corner(&self.rates.speed, 0), corner(&self.rates.reference_speed, n));
-        let a = corner(&self.rates.reference_acceleration, 2 * n);
-        let model = self.generation.code().interpret(&q, &v, &w, &a);
-        let exact: Vec<Vec<f64>> = self.exact.iter().map(|code| code.interpret(&q, &v, &w, &a)).collect();
-        let torque = self.generation.torque().unwrap();
-        let part = |i: usize| {
-            let error = exact.iter().map(|exact| (model[i] - exact[i]).abs()).fold(0.0, f64::max);
-            let rounding = 1e-11 * torque.peak[i];
-            assert!(error <= torque.error[i] + rounding, "joint {}: {error} > {}", i + 1, torque.error[i]);
-            if torque.error[i] > 0.0 { error / torque.error[i] } else { 0.0 }
-        };
-        (0..n).map(part).collect()
-    }
-
-    /// Uphill for joint `i`, by steps along single variables and turns of single rates.
-    fn climb(&self, i: usize, mut state: State) -> f64 {
-        let n = self.generation.arm().dof();
-        let mut height = self.parts(&state)[i];
-        let mut step = 0.1;
-        while step > 1e-3 {
-            let before = height;
-            for change in 0..2 * (n + 1) + 3 * n {
-                let mut next = state.clone();
-                match change.checked_sub(2 * (n + 1)) {
-                    Some(bit) => next.signs ^= 1 << bit,
-                    None => {
-                        let turn = if change % 2 == 0 { step } else { -step };
-                        next.unit[change / 2] = (next.unit[change / 2] + turn).clamp(0.0, 1.0);
-                    }
-                }
-                let there = self.parts(&next)[i];
-                if there > height {
-                    (height, state) = (there, next);
-                }
-            }
-            step *= if height > before { 1.0 } else { 0.5 };
-        }
-        height
-    }
-}
-
-/// The emitted code against the exact code at states of the domain, sides among them, rates in corners of their box, and
-/// climbs from the worst of them for each joint. Largest error found as a part of what is certified.
-fn search(generation: &Generation, states: usize) -> f64 {
-    let arena = Arena::new(generation);
-    let n = generation.arm().dof();
-    let spread = LowDiscrepancy::new(n + 1);
-    let state = |index: usize| {
-        let side = |u: &f64| (0.5 + 1.4 * (u - 0.5)).clamp(0.0, 1.0);
-        let signs = (index + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 7;
-        State { unit: spread.point(index).iter().map(side).collect(), signs }
-    };
-    let mut best = vec![(0.0, 0); n];
-    for index in 0..states {
-        for (best, part) in best.iter_mut().zip(arena.parts(&state(index))) {
-            if part > best.0 {
-                *best = (part, index);
-            }
-        }
-    }
-    (0..n).map(|i| arena.climb(i, state(best[i].1))).fold(0.0, f64::max)
-}
-
-/// Never dearer than exact, never dearer for a larger tolerance, certified within it.
+/// The cost is never above the exact model's and never rises with the tolerance; each model is certified within it.
 fn sweep(loaded: &Loaded, tolerances: &[f64], states: usize) -> Vec<Generation> {
     println!("{}\n  tolerance  operations  pairs  certified  found/certified  form", loaded.spec.name);
     let mut before = usize::MAX;
@@ -272,73 +148,6 @@ fn the_certificate_of_an_uncertain_arm_holds_for_all_of_them() {
     }
     let simpler = attacked(&uncertain("stanford", serde_json::json!([])), 0.002);
     assert!(simpler.reduced().simplified_arm().is_some());
-}
-
-/// Two links whose first twist is 0.005 rad off a right angle, over the whole of their limits.
-fn nearly_square(round_angles: f64, torque: f64) -> Result<Generation, String> {
-    let link = |alpha: f64| {
-        serde_json::json!({
-            "joint": "revolute", "alpha": alpha, "a": 0.3, "d": 0, "mass": 1, "com": [0, 0, 0],
-            "inertia": { "xx": 0.01, "yy": 0.01, "zz": 0.01 },
-            "limits": { "position": [-1, 1], "velocity": 1, "acceleration": 1 }
-        })
-    };
-    let links = [link(1.5758), link(0.0)];
-    let spec = serde_json::json!({
-        "name": "nearly_square",
-        "arm": { "round_angles": round_angles, "dh": { "convention": "standard", "links": links } },
-        "measure": "workspace", "model": { "tolerance": { "torque": torque } }
-    });
-    let loaded = gramforge::load::parse(&spec.to_string(), Path::new("arm.json")).unwrap();
-    Generation::new(loaded).map_err(|error| error.to_string())
-}
-
-#[test]
-fn a_tolerance_that_rounded_rotations_exceed_is_refused() {
-    let message = nearly_square(0.01, 0.001).expect_err("12.99 % for 0.1 %");
-    assert_eq!(
-        message,
-        "arm.json: arm.round_angles: is 0.01, and rotations rounded by that cost 12.99 % of the peak torque of joint1, where \
-         `model` allows 0.1 %; write a smaller value, such as 1e-9, or a `model.tolerance.torque` above 0.1299"
-    );
-    // Both ways out that the message names are open.
-    for (round_angles, torque) in [(1e-9, 0.001), (0.01, 0.13)] {
-        let generation = nearly_square(round_angles, torque).unwrap_or_else(|message| panic!("{message}"));
-        assert!(generation.torque().unwrap().fraction() <= torque);
-        assert!(!generation.warnings().iter().any(|text| text.contains("less than rounding")));
-    }
-}
-
-#[test]
-fn a_tolerance_that_rounding_in_f64_exceeds_is_warned_of() {
-    let generation = nearly_square(0.0, 1e-13).unwrap_or_else(|message| panic!("{message}"));
-    let certified = generation.torque().unwrap().fraction();
-    assert!(certified > 1e-13 && certified < 1e-10, "{certified}");
-    let said = "model: a torque error of 1.000e-13 of the peak torque is less than rounding in f64 leaves";
-    assert!(generation.warnings().iter().any(|text| text.contains(said)), "{:?}", generation.warnings());
-}
-
-#[test]
-fn there_is_no_share_of_a_torque_that_is_rounding() {
-    // An upright axis about which the arm does not move; two sinusoids that cancel to the last digits.
-    let link = serde_json::json!({
-        "joint": "revolute", "alpha": std::f64::consts::FRAC_PI_2, "a": 0, "d": 0.5, "mass": 5.5, "com": [0, -0.1, 0],
-        "inertia": { "xx": 0.2, "yy": 0.01, "zz": 0.2 }
-    });
-    let wave = |phase: f64| serde_json::json!({ "amplitude": 0.0194, "frequency": 9.1177, "phase": phase });
-    let half = std::f64::consts::FRAC_PI_2;
-    let spec = serde_json::json!({
-        "name": "still", "arm": { "dh": { "convention": "standard", "links": [link] } },
-        "motion": { "sinusoids": { "offset": [0], "terms": [[wave(half), wave(-half)]], "duration": 20.0 } },
-        "measure": { "tube": { "position_error": 0.05 } }, "model": { "tolerance": { "torque": 0.05 } }
-    });
-    let loaded = gramforge::load::parse(&spec.to_string(), Path::new("arm.json")).unwrap();
-    let generation = Generation::new(loaded).unwrap();
-    let torque = generation.torque().unwrap();
-    assert!(torque.peak[0] < 1e-12 && torque.error[0] > torque.peak[0], "{torque:?}");
-    assert!(torque.fraction().is_infinite());
-    let module = generation.module().unwrap();
-    assert!(module.contains("a percentage is not available") && !module.contains("more than 100000"));
 }
 
 #[test]

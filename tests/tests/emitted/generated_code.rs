@@ -21,25 +21,33 @@ macro_rules! module {
             stringify!($name),
             &$name::$model,
             &$name::REFERENCE,
-            &$name::BOUNDS,
-            &$name::VISCOUS_FRICTION,
-            [$name::FUNCTIONS, $name::MULTIPLICATIONS, $name::ADDITIONS, $name::TRIG_PAIRS],
-            &$name::PSI,
+            &Constants {
+                bounds: &$name::BOUNDS,
+                viscous: &$name::VISCOUS_FRICTION,
+                counts: [$name::FUNCTIONS, $name::MULTIPLICATIONS, $name::ADDITIONS, $name::TRIG_PAIRS],
+                psi: &$name::PSI,
+            },
         )
     };
+}
+
+/// Constants of a module.
+struct Constants<'a, const N: usize> {
+    bounds: &'a Bounds<f64, N>,
+    viscous: &'a [f64; N],
+    /// Functions, multiplications, additions, sine-cosine pairs.
+    counts: [usize; 4],
+    psi: &'a [&'a str],
 }
 
 fn agrees<const N: usize>(
     name: &str,
     model: &impl Model<N, Scalar = f64>,
     reference: &impl Reference<f64, N>,
-    bounds: &Bounds<f64, N>,
-    viscous: &[f64; N],
-    counts: [usize; 4],
-    psi: &[&str],
+    module: &Constants<N>,
 ) {
     let made = generation(name);
-    constants(&made, bounds, viscous, counts, psi);
+    constants(&made, module);
     let mut random = Random::new(20);
     for _ in 0..1000 {
         let (q, qd) = (random.array::<N>(3.2), random.array(5.0));
@@ -61,13 +69,8 @@ fn agrees<const N: usize>(
     println!("{name}: same bits as its graph at 1000 states and as its motion at 1000 instants");
 }
 
-fn constants<const N: usize>(
-    made: &Generation,
-    bounds: &Bounds<f64, N>,
-    viscous: &[f64; N],
-    counts: [usize; 4],
-    psi: &[&str],
-) {
+fn constants<const N: usize>(made: &Generation, module: &Constants<N>) {
+    let Constants { bounds, viscous, counts, psi } = *module;
     let operations = made.code().operations();
     let names: Vec<String> = match made.reduced().sparse() {
         Some(model) => model.functions.iter().map(|psi| psi.formula(made.lagrangian())).collect(),
@@ -140,7 +143,7 @@ fn committed_modules_are_current() {
 }
 
 #[test]
-fn a_stale_module_names_the_command_that_mends_it() {
+fn a_stale_module_names_the_command_that_renews_it() {
     let stale = Config::new().spec(spec("arm3_csv")).out_dir("../generated/src").check();
     let message = stale.unwrap_err().to_string();
     println!("{message}");

@@ -1,7 +1,7 @@
 //! The runtime's sines and cosines keep within the errors that they state.
 //!
 //! Every f32 and a longer search in f64:
-//! `cargo test --release -p gramforge-tests --test trig -- --include-ignored --nocapture`
+//! `cargo test --release -p gramforge-tests --test emitted -- trig:: --include-ignored --nocapture`
 
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 

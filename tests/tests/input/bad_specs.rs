@@ -1,4 +1,4 @@
-//! One input for each class of mistake: one line that names file, field and mend, exit code 2, no file touched.
+//! One input for each class of mistake: one line that names file, field and help, exit code 2, no file touched.
 
 mod arm;
 mod case;

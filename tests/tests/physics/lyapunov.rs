@@ -1,7 +1,7 @@
 //! The inequalities behind the guarantees, along simulated runs of arms drawn from the families that they are given for.
 //!
 //! Two hundred arms, and a PUMA 560 with a payload:
-//! `cargo test --release -p gramforge-tests --test lyapunov -- --include-ignored --nocapture`
+//! `cargo test --release -p gramforge-tests --test physics -- lyapunov:: --include-ignored --nocapture`
 
 mod closed;
 
@@ -26,7 +26,7 @@ fn inside<const N: usize>(generation: &Generation, sample: &Sample<f64, N>) -> b
     (0..N).all(|i| (sample.q[i] - sample.desired.q[i]).abs() <= tube[i] && sample.qd[i].abs() <= speed[i])
 }
 
-/// The published envelope, and the ball in the end.
+/// The error stays within the published envelope and, at the `end`, within the final error.
 fn within<const N: usize>(design: &Design, error: &[f64; N], end: bool) {
     let published = if end { &design.guarantee.final_error } else { &design.envelope.position_error };
     assert!(error.iter().zip(published).all(|(e, p)| *e <= *p), "{error:?} beyond {published:?}");

@@ -2,7 +2,7 @@
 //! model that follows them finds each.
 //!
 //! The report's factor on a PUMA 560 with a payload takes a minute:
-//! `cargo test --release -p gramforge-tests --test uncertainty -- --include-ignored --nocapture`
+//! `cargo test --release -p gramforge-tests --test physics -- uncertainty:: --include-ignored --nocapture`
 
 mod bounds;
 mod expansion;

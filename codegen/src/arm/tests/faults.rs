@@ -58,7 +58,7 @@ fn faults_of_tables_name_field_value_and_help() {
         &[
             "links[0].motor.gear_ratio: is 0; write",
             "links[1].motor.inertia: is -0.0001; write a number of at least 0",
-            "links[2].armature: stands beside `motor`",
+            "links[2].armature: is given together with `motor`",
         ],
     );
     expect(
@@ -88,9 +88,9 @@ fn faults_of_tables_name_field_value_and_help() {
         ],
     );
     expect(|v| v["arm"]["dh"]["links"] = json!([]), &["arm.dh.links: has 0 links; write 1 to 8 links"]);
-    expect(|v| v["arm"]["tip"] = json!("hand"), &["arm.tip: goes with `urdf` alone"]);
+    expect(|v| v["arm"]["tip"] = json!("hand"), &["arm.tip: applies only to `urdf`"]);
     expect(|v| v["arm"]["urdf"] = json!("x.urdf"), &["arm: has both `dh` and `urdf`; keep"]);
-    expect(|v| link(v, 0, "a", json!(1e300)), &["arm: holds lengths and masses whose products overflow"]);
+    expect(|v| link(v, 0, "a", json!(1e300)), &["arm: has lengths and masses whose products overflow"]);
     expect(|v| v["arm"] = json!({}), &["arm: has neither `dh` nor `urdf`; add"]);
     expect(
         |v| v["arm"]["payload"] = json!({ "mass": -1.0 }),

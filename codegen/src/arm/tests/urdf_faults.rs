@@ -152,14 +152,14 @@ fn faults_name_file_place_value_and_help() {
         "twice",
         &[("<link name=\"tool\"/>", "<link name=\"tool\"/><link name=\"tool\"/>")],
         u(),
-        "arm.urdf: link[tool]: stands twice",
+        "arm.urdf: link[tool]: occurs twice",
     );
     refused_in(
         line_of("<joint name=\"end\""),
         "joint-twice",
         &[("name=\"mount\"", "name=\"end\"")],
         u(),
-        "arm.urdf: joint[end]: stands twice, first in line 17; give each its own name",
+        "arm.urdf: joint[end]: occurs twice, first in line 17; give each a different name",
     );
     refused(
         "unknown-link",
@@ -177,7 +177,7 @@ fn faults_name_file_place_value_and_help() {
         "roots",
         &[("<link name=\"tool\"/>", "<link name=\"tool\"/><link name=\"table\"/>")],
         u(),
-        "arm.urdf: falls apart: base, table are carried by no joint",
+        "arm.urdf: is not connected: no joint carries base, table",
     );
     refused(
         "loop",
@@ -234,7 +234,7 @@ fn faults_name_file_place_value_and_help() {
         "two-inertials",
         &[("izz=\"0.25\"/></inertial>", "izz=\"0.25\"/></inertial><inertial/>")],
         u(),
-        "arm.urdf: link[upper].inertial: stands twice, first in line 5; keep one <inertial>",
+        "arm.urdf: link[upper].inertial: occurs twice, first in line 5; keep one <inertial>",
     );
     let empty = outcome("empty", "", u()).expect_err("empty");
     assert!(empty.contains("arm.urdf: has no XML element"), "{empty}");

@@ -38,7 +38,7 @@ pub(super) fn text(bytes: &[u8]) -> Result<String, Unreadable> {
     } else if LATIN.contains(&lower.as_str()) {
         Ok(bytes.iter().map(|&byte| char::from(byte)).collect())
     } else {
-        let problem = format!("declares the encoding {name:?}, which is not read");
+        let problem = format!("declares the encoding {name:?}, which is not supported");
         Err(Unreadable { line: Some(1), problem, help: SAVE })
     }
 }
@@ -72,7 +72,7 @@ fn utf_16(bytes: &[u8], word: fn([u8; 2]) -> u16) -> Result<String, Unreadable> 
         return Err(wrong("is UTF-16 with half a character at its end"));
     }
     let words = pairs.iter().map(|&pair| word(pair));
-    char::decode_utf16(words).collect::<Result<String, _>>().map_err(|_| wrong("is not sound UTF-16"))
+    char::decode_utf16(words).collect::<Result<String, _>>().map_err(|_| wrong("is not valid UTF-16"))
 }
 
 /// Number of the line that begins or goes on behind `text`, from 1; `\n`, `\r\n` and `\r` end lines.

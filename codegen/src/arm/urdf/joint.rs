@@ -24,7 +24,7 @@ pub(super) fn pose(
     let place = place.at("origin").on(origin.line);
     if let Some(quaternion) = origin.attribute("quat_xyzw") {
         let place = place.at("quat_xyzw").on(quaternion.line);
-        place.fault(faults, "is a quaternion, which is not read", "write the rotation as `rpy`");
+        place.fault(faults, "is a quaternion, which is not supported", "write the rotation as `rpy`");
         return None;
     }
     let (xyz, rpy) =

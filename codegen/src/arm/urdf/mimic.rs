@@ -26,7 +26,6 @@ pub(super) struct Follow<'a> {
 pub(super) fn role<'a>(
     joint: &'a Joint<'a>,
     element: &'a Element,
-    on_chain: bool,
     all: &BTreeMap<&str, &'a Joint<'a>>,
     chain: &BTreeSet<&str>,
     spec: &ArmSpec,
@@ -52,7 +51,7 @@ pub(super) fn role<'a>(
         place.fault(faults, format!("follows {:?}, which is off the chain to the tip", master.name), help);
         return None;
     }
-    if !on_chain {
+    if !chain.contains(joint.name) {
         faults.push(
             format!("arm.lock.{}", joint.name),
             format!("is missing: this joint follows {} off the chain to the tip, and branches that move are not supported", master.name),

@@ -170,7 +170,7 @@ fn idle(link: &Link<'_>, warnings: &mut Vec<String>) {
         let place = fault.line.map_or(place.clone(), |line| place.on(line));
         place.warn(
             warnings,
-            &format!("{}; no moving joint carries this link, so it does not count", fault.problem),
+            &format!("{}; no moving joint carries this link, so it is ignored", fault.problem),
         );
     }
 }

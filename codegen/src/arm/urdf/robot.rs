@@ -182,7 +182,7 @@ fn named<'a>(
     let length = name.value.chars().count();
     if length > LONGEST_NAME {
         let place = whole.at(kind).at("name").on(name.line);
-        let help = format!("write at most {LONGEST_NAME}: it stands in messages and in the module");
+        let help = format!("write at most {LONGEST_NAME}: it is written into messages and into the module");
         place.fault(faults, format!("has {length} characters"), help);
         return None;
     }
@@ -226,7 +226,7 @@ fn unique<'a>(named: impl Iterator<Item = (&'a str, &'a Place)>, faults: &mut Di
     for (name, place) in named {
         if let Some(first) = seen.get(name) {
             let line = first.line().map_or(String::new(), |line| format!(", first in line {line}"));
-            place.fault(faults, format!("stands twice{line}"), "give each its own name");
+            place.fault(faults, format!("occurs twice{line}"), "give each a different name");
         } else {
             seen.insert(name, place);
         }

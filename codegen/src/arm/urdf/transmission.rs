@@ -79,7 +79,7 @@ fn reflected(element: &Element, joints: usize) -> Option<Result<f64, String>> {
             if reflected.is_finite() { Ok(reflected) } else { Err("overflows".into()) }
         }
         ([_], []) => Err("gives a rotor inertia without mechanicalReduction".into()),
-        ([_], [_]) => Err("gives a rotor inertia or a reduction that is no sound number".into()),
+        ([_], [_]) => Err("gives a rotor inertia or a reduction that is not a valid number".into()),
         _ => Err("gives several rotor inertias or reductions".into()),
     })
 }

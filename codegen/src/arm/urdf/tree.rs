@@ -110,7 +110,7 @@ fn root<'a>(
             None
         }
         several => {
-            let problem = format!("falls apart: {} are carried by no joint", listed(several));
+            let problem = format!("is not connected: no joint carries {}", listed(several));
             let second = robot.links.iter().find(|link| several.get(1) == Some(&link.name));
             let whole = at_first(second.map(|link| &link.place), whole);
             whole.fault(faults, problem, "join the parts, or remove all but the arm");
@@ -195,9 +195,8 @@ fn roles<'a>(
     let mut carried: BTreeSet<&str> = BTreeSet::new();
     let mut out = Vec::new();
     for joint in ordered {
-        let on_chain = chain.contains(joint.name);
-        let matters = on_chain || carried.contains(joint.parent);
-        let role = if matters { role(joint, on_chain, &all, chain, spec, faults) } else { Some(Role::Idle) };
+        let matters = chain.contains(joint.name) || carried.contains(joint.parent);
+        let role = if matters { role(joint, &all, chain, spec, faults) } else { Some(Role::Idle) };
         let moves = matches!(role, Some(Role::Moves | Role::Follows(_)));
         if moves || carried.contains(joint.parent) {
             carried.insert(joint.child);
@@ -220,7 +219,6 @@ fn roles<'a>(
 /// The role of a joint that stands between base and tip or on a link that moves; `None` after a fault.
 fn role<'a>(
     joint: &'a Joint<'a>,
-    on_chain: bool,
     all: &BTreeMap<&str, &'a Joint<'a>>,
     chain: &BTreeSet<&str>,
     spec: &ArmSpec,
@@ -247,8 +245,8 @@ fn role<'a>(
         }
         (_, Some(_), Some(position)) => Some(Role::Welded(position)),
         (_, Some(_), None) => match joint.element.one("mimic", &joint.place, faults) {
-            Some(element) => mimic::role(joint, element, on_chain, all, chain, spec, faults),
-            None if on_chain => Some(Role::Moves),
+            Some(element) => mimic::role(joint, element, all, chain, spec, faults),
+            None if chain.contains(joint.name) => Some(Role::Moves),
             None => {
                 faults.push(
                     format!("arm.lock.{}", joint.name),

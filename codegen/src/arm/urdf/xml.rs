@@ -60,7 +60,7 @@ impl Element {
     pub fn one(&self, name: &str, place: &Place, faults: &mut Diagnostics) -> Option<&Self> {
         let first = self.children.iter().find(|child| child.name == name)?;
         for other in self.all(name).skip(1) {
-            let problem = format!("stands twice, first in line {}", first.line);
+            let problem = format!("occurs twice, first in line {}", first.line);
             place.at(name).on(other.line).fault(faults, problem, format!("keep one <{name}>"));
         }
         Some(first)

@@ -1,12 +1,16 @@
 //! Mode `tolerance`: a family of ever cheaper and coarser sparse models.
 //!
-//! The family is what a few descents pass through for an arm, a domain and its rates, as far as somebody asks: a looser tolerance sees the members that a stricter one sees and more, so that it never costs more.
+//! A few descents make the members of the family, one after the other. The members depend on the arm, the domain and its
+//! rates. A looser tolerance only lets the descents go on for longer: it sees all members of a stricter one, and costs no
+//! more.
 
 mod cost;
 mod descent;
+mod exchange;
 mod fitting;
 mod moves;
 mod polish;
+mod room;
 mod squares;
 mod start;
 mod ties;
@@ -26,7 +30,7 @@ use moves::Moves;
 pub const STRICTEST: f64 = 3.5e-3;
 /// Ratio of the fractions of neighbouring steps.
 const STEP: f64 = 1.06;
-/// How keen on large steps each descent is: which one ends cheapest nobody can tell.
+/// How much each descent prefers large steps. Which one ends at the least cost is not known before.
 const KEEN: [f64; 2] = [0.7, 1.5];
 /// Where it ends in any case.
 const LAST: f64 = 0.5;

@@ -1,8 +1,9 @@
-//! Second thoughts on a descent: exchanges taken back, and parameters fitted together.
+//! Improving the result of a descent: exchanges are taken back, and parameters are fitted together.
 
 use std::sync::Arc;
 
-use super::descent::{Descent, errors, largest};
+use super::descent::Descent;
+use super::room::{errors, largest};
 use super::ties::exchanged;
 
 /// Exchanges of one slot that are taken back together.

@@ -1,4 +1,4 @@
-//! A package through its life: valid, broken, mended, renamed, deleted, of two specifications, with files that change.
+//! A package through its life: valid, broken, repaired, renamed, deleted, of two specifications, with files that change.
 
 use std::fs;
 
@@ -18,7 +18,7 @@ fn arm(name: &str) -> Package {
 }
 
 #[test]
-fn a_broken_specification_breaks_the_build_until_it_is_mended() {
+fn a_broken_specification_breaks_the_build_until_it_is_repaired() {
     let package = arm("gramforge-scratch-broken");
     let module = package.out_dir().join("arm.rs");
     let good = fs::read_to_string(&module).expect("a module");

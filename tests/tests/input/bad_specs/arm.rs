@@ -36,7 +36,7 @@ const CASES: &[Case] = &[
             i.link(0, "motor", json!({ "inertia": 0.001, "gear_ratio": 50.0 }));
         },
         "arm.dh.links[0].armature",
-        &["beside `motor`", "remove `armature` or `motor`"],
+        &["together with `motor`", "remove `armature` or `motor`"],
     ),
     case(
         "gear ratio of zero",
@@ -158,7 +158,7 @@ const CASES: &[Case] = &[
             i.set("/arm/tip", json!("hand"));
         },
         "arm.tip",
-        &["goes with `urdf` alone", "remove it"],
+        &["applies only to `urdf`", "remove it"],
     ),
     case(
         "lock beside dh",
@@ -166,7 +166,7 @@ const CASES: &[Case] = &[
             i.set("/arm/lock", json!({ "joint1": 0.0 }));
         },
         "arm.lock",
-        &["goes with `urdf` alone", "remove it"],
+        &["applies only to `urdf`", "remove it"],
     ),
     case(
         "singular inertia matrix",

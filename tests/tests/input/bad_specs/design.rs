@@ -5,11 +5,11 @@ use serde_json::json;
 use super::case::{Case, case, judge};
 use super::input::Input;
 
-fn ask(input: &mut Input, wish: serde_json::Value) {
+fn ask(input: &mut Input, request: serde_json::Value) {
     for gain in ["period", "W", "Pqq", "Omega"] {
         input.remove(&format!("/control/{gain}"));
     }
-    input.control("design", wish);
+    input.control("design", request);
 }
 
 const CASES: &[Case] = &[
@@ -76,7 +76,7 @@ const CASES: &[Case] = &[
             i.set("/measure", json!("trajectory"));
         },
         "control.design",
-        &["no room", "take the measure `tube`"],
+        &["needs room for errors", "take the measure `tube`"],
     ),
     case(
         "a period that no gains bear",

@@ -149,7 +149,7 @@ const CASES: &[Case] = &[
             i.set("/dictionary", json!("union")).remove("/model");
         },
         "dictionary",
-        &["`model` is `auto`, as it is where none is written", "leave it out", "{\"shared\": "],
+        &["`model` is `auto`, which is the default", "leave it out", "{\"shared\": "],
     ),
     case(
         "a dictionary for the exact model",
@@ -165,7 +165,7 @@ const CASES: &[Case] = &[
             table(i, None);
         },
         "emit.trig",
-        &["takes a table", "`auto`, as it is where none is written", "\"polynomial\"", "or \"exact\""],
+        &["asks for a table", "`model` is `auto`, which is the default", "\"polynomial\"", "or \"exact\""],
     ),
     case(
         "a table of sines for a tolerance",
@@ -173,7 +173,7 @@ const CASES: &[Case] = &[
             table(i, Some(json!({ "tolerance": { "torque": 0.05 } })));
         },
         "emit.trig",
-        &["takes a table", "`model` is `tolerance`", "\"polynomial\"", "or \"exact\""],
+        &["asks for a table", "`model` is `tolerance`", "\"polynomial\"", "or \"exact\""],
     ),
     case(
         "a table of sines for products",
@@ -181,7 +181,7 @@ const CASES: &[Case] = &[
             table(i, Some(json!({ "separate": { "functions": 2 } }))).set("/dictionary", json!("product"));
         },
         "emit.trig",
-        &["takes a table", "`dictionary` is `product`", "\"polynomial\"", "leave out `dictionary`"],
+        &["asks for a table", "`dictionary` is `product`", "\"polynomial\"", "leave out `dictionary`"],
     ),
     case(
         "a law that learns without a model",
@@ -189,7 +189,7 @@ const CASES: &[Case] = &[
             learning(i, None);
         },
         "control.law",
-        &["is `adaptive`", "`auto`, as it is where none is written", "{\"shared\": ", "`tight`"],
+        &["is `adaptive`", "`model` is `auto`, which is the default", "{\"shared\": ", "`tight`"],
     ),
     case(
         "a law that learns for a tolerance",

@@ -72,7 +72,7 @@ const CASES: &[Case] = &[
         "times that fall",
         |i| waypoints(i, json!([0.0, 2.0, 1.0])),
         "motion.waypoints.times[2]",
-        &["is 1, after 2", "let the times rise"],
+        &["is 1, after 2", "write the times in increasing order"],
     ),
     case(
         "times that start late",
@@ -137,7 +137,7 @@ const CASES: &[Case] = &[
             i.csv("0,0,0,0\n1,0,0,0\n1,0,0,0\n2,0,0,0\n");
         },
         "line 3",
-        &["time 1 does not come after 1", "increasing times"],
+        &["time 1 is not later than 1", "increasing times"],
     )
     .inside("motion.csv"),
     case(

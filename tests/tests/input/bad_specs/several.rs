@@ -154,7 +154,7 @@ fn in_two_specifications() {
 
 #[test]
 fn the_same_name_twice() {
-    expect(&[Input::good(), Input::good()], &["spec1.json: name: is \"arm3_xi2\", as in "]);
+    expect(&[Input::good(), Input::good()], &["spec1.json: name: is \"arm3_xi2\", which "]);
 }
 
 #[test]

@@ -92,7 +92,7 @@ const CASES: &[Case] = &[
             i.replace("\"period\":0.01", "\"period\":0.01,\"period\":0.02");
         },
         "control.period",
-        &["stands twice", "keep one"],
+        &["occurs twice", "keep one"],
     ),
     case(
         "syntax: trailing comma",

@@ -61,7 +61,7 @@ fn typical_refusals_read_as_they_were_judged() {
     assert!(
         changed.is_empty(),
         "these refusals read otherwise than in {}; if they are better, run \
-         `UPDATE=1 cargo test -p gramforge-tests --test bad_specs snapshots`\n\n{}",
+         `UPDATE=1 cargo test -p gramforge-tests --test input snapshots`\n\n{}",
         kept.display(),
         changed.join("\n")
     );

@@ -30,7 +30,7 @@ const CASES: &[Case] = &[
             i.control("uncertainty", json!({ "links": [entry, entry] }));
         },
         "control.uncertainty.links[1].joint",
-        &["is \"joint3\" once more", "one place"],
+        &["is \"joint3\" again", "one place"],
     ),
     case(
         "link without an interval",
@@ -42,19 +42,19 @@ const CASES: &[Case] = &[
         "interval beside the arm's own mass",
         |i| link(i, json!({ "joint": "joint3", "mass": [3.6, 4.2] })),
         "control.uncertainty.links[0].mass",
-        &["is [3.6, 4.2]", "does not hold the arm's own 3.5", "write an interval about"],
+        &["is [3.6, 4.2]", "does not contain the arm's own 3.5", "write an interval about"],
     ),
     case(
         "interval beside the arm's own first moment",
         |i| link(i, json!({ "joint": "joint2", "first_moment": [[-0.3, 0.1], null, null] })),
         "control.uncertainty.links[0].first_moment[0]",
-        &["is [-0.3, 0.1]", "does not hold the arm's own -0.375", "write an interval about"],
+        &["is [-0.3, 0.1]", "does not contain the arm's own -0.375", "write an interval about"],
     ),
     case(
         "ends the wrong way round",
         |i| link(i, json!({ "joint": "joint3", "mass": [4.2, 2.8] })),
         "control.uncertainty.links[0].mass",
-        &["is [4.2, 2.8]", "the lowest first"],
+        &["is [4.2, 2.8]", "the lower one first"],
     ),
     case(
         "negative mass",
@@ -102,7 +102,7 @@ const CASES: &[Case] = &[
         |i| link(i, json!({ "joint": "joint3", "mass": [0.0, 3.5] })),
         "control.uncertainty",
         &[
-            "reaches an arm that cannot be",
+            "admits an arm that cannot exist",
             "links[0].mass = 0.0",
             "smallest eigenvalue -",
             "narrow the intervals",
@@ -131,7 +131,7 @@ const CASES: &[Case] = &[
             i.control("adaptation", json!({ "Ptheta": 1.0 }));
         },
         "control.adaptation",
-        &["goes with law `adaptive` alone", "remove it"],
+        &["applies only to law `adaptive`", "remove it"],
     ),
     case("Ptheta of zero", |i| p_theta(i, json!(0.0)), "control.adaptation.Ptheta", &["is 0", "above 0"]),
     case(

@@ -86,7 +86,7 @@ fn links_that_nothing_carries_do_not_count() {
     let plate = |mass: &str, ixx: &str| PLATE.replace("MASS", mass).replace("IXX", ixx);
     let made = Case::new("a negative moment on the base").with(&plate("0.1", "-3e-8")).accepted(&chain());
     warned(&made, "link[plate].inertial.inertia: gives the principal moment -3.0");
-    warned(&made, "no moving joint carries this link, so it does not count");
+    warned(&made, "no moving joint carries this link, so it is ignored");
     let made = Case::new("a negative mass on the base").with(&plate("-2", "1e-5")).accepted(&chain());
     warned(&made, "link[plate].inertial.mass: is -2; no moving joint carries this link");
     let made = Case::new("a mass that is no number").with(&plate("heavy", "1e-5")).accepted(&chain());

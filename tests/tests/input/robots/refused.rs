@@ -51,12 +51,12 @@ fn lines_are_those_of_the_file() {
     Case::new("a link twice").with("<link name=\"l1\"/>").refused(
         Some("<link name=\"l1\"/>"),
         "link[l1]",
-        &["stands twice, first in line 4"],
+        &["occurs twice, first in line 4"],
     );
     Case::new("two origins").edit("<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 1 0\"/>\n    <origin/>").refused(
         Some("<origin/>"),
         "joint[j1].origin",
-        &["stands twice, first in line 21", "keep one <origin>"],
+        &["occurs twice, first in line 21", "keep one <origin>"],
     );
     Case::new("no child").edit("<child link=\"l2\"/>", "").refused(
         Some("<joint name=\"j2\""),
@@ -234,7 +234,7 @@ fn a_file_that_is_no_tree_is_told_with_a_line() {
     Case::new("parts").with(&more).refused(
         Some("<link name=\"part00\""),
         "",
-        &["falls apart: base, part00, part01,", "part18 and 11 more are carried by no joint"],
+        &["is not connected: no joint carries base, part00, part01,", "part18 and 11 more"],
     );
     let ring = "<link name=\"a\"/><link name=\"b\"/>\n\
         <joint name=\"ab\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>\n\
@@ -274,6 +274,6 @@ fn a_joint_that_moves_no_mass_is_named() {
     massless.more("control", control).refused(
         None,
         "arm.json: arm",
-        &["smallest eigenvalue", "the joint j2 moves next to no mass", "add `armature` to it"],
+        &["smallest eigenvalue", "the joint j2 moves almost no mass", "add `armature` to it"],
     );
 }
