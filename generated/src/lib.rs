@@ -2,7 +2,7 @@
 //!
 //! The three-link arm of the 1992 report with one, two and three kept functions and exact, and with
 //! two and four under robust and adaptive control for an uncertain load; the PUMA 560 with its motors
-//! with six and twelve kept functions and exact. The modules are committed;
+//! with six and twelve kept functions, within 1 % over its workspace, and exact. The modules are committed;
 //! `gramforge generate generated/specs/*.json --out generated/src` makes them anew, and with `--check`
 //! says whether they are current.
 #![no_std]
@@ -31,6 +31,9 @@ pub mod arm3_xi3;
 /// The PUMA 560 with its motors, exact.
 #[rustfmt::skip]
 pub mod puma560_exact;
+/// The PUMA 560 with its motors, within 1 % of its largest torques over its whole workspace: guaranteed.
+#[rustfmt::skip]
+pub mod puma560_one_percent;
 /// The PUMA 560 with its motors, twelve functions.
 #[rustfmt::skip]
 pub mod puma560_xi12;

@@ -156,7 +156,8 @@ pub fn design(problem: &DesignProblem, constant: bool) -> Result<Design, Error> 
         GainSource::Requested(request) => gain_synthesis::tune(&stage, request)?,
         GainSource::Given(tuning) => tuning.clone(),
     };
-    let told = progress::Stage::new(problem.progress, "guarantee", 1);
+    let told = if constant { "guarantee with a constant gain" } else { "guarantee" };
+    let told = progress::Stage::new(problem.progress, told, 1);
     let (gains, judgement) = stage.judge(&tuning)?;
     drop(told);
     let guarantee::Judgement { envelope, delta_c, k_star, delta_c1, guarantee, rates, settled, gain, .. } =

@@ -69,9 +69,8 @@ impl Designed {
 
     /// What the step saves against that of the exact model; `None` where there is nothing to compare.
     pub fn saving(&self) -> Option<Saving> {
-        let [reduced, exact] = [&self.step, &self.exact_step].map(|step| {
-            step.as_ref().map(|step| step.operations().cost())
-        });
+        let [reduced, exact] =
+            [&self.step, &self.exact_step].map(|step| step.as_ref().map(|step| step.operations().cost()));
         Some(Saving { reduced: reduced?, exact: exact? })
     }
 

@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use super::{Means, Wanted};
 use super::certified::Certified;
+use super::{Means, Wanted};
 use crate::bounds::Effort;
 use crate::cache::Cache;
 use crate::check::Checked;
@@ -45,13 +45,7 @@ pub(crate) fn keep(cache: &Cache, loaded: &Loaded, effort: &Effort) {
 
 /// The key of everything that the model and its bounds follow from. Of the controller that is whether there is one, which
 /// law it is, what is uncertain, and what is learnt.
-fn key(
-    cache: &Cache,
-    loaded: &Loaded,
-    wanted: Wanted,
-    controlled: bool,
-    effort: &Effort,
-) -> Option<String> {
+fn key(cache: &Cache, loaded: &Loaded, wanted: Wanted, controlled: bool, effort: &Effort) -> Option<String> {
     let mut spec = serde_json::to_value(&loaded.spec).ok()?;
     let fields = spec.as_object_mut()?;
     fields.remove("simulation");

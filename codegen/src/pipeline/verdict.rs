@@ -13,8 +13,8 @@ impl Generation {
         if let Some(saving) = self.designed.not_worth {
             let Saving { reduced, exact } = saving;
             return format!(
-                "A control step with the cheapest reduced model that was found would cost {reduced} operations, and {exact} with \
-                 the exact one: less than 5 % is saved, so this is the exact model."
+                "A control step costs {exact}, and {reduced} with the cheapest reduced model that was found ({COUNTED}). Less \
+                 than 5 % would be saved, so this is the exact model."
             );
         }
         if self.reduced().is_exact() {
@@ -34,15 +34,17 @@ impl Generation {
     }
 }
 
+/// How steps are counted, for a person.
+const COUNTED: &str = "operations, a sine-cosine pair counted as 12 and a clamp as 2";
+
 fn of_steps(saving: Saving) -> String {
     let Saving { reduced, exact } = saving;
     if saving.pays() {
-        let saved = exact - reduced;
-        format!("The reduction pays: it saves {saved} of {exact} operations of a control step.")
+        format!("The reduction pays: a control step costs {reduced} instead of {exact} ({COUNTED}).")
     } else {
         format!(
-            "The reduction does not pay: a control step costs {reduced} operations, and {exact} with the exact model. It pays \
-             from 5 % on."
+            "The reduction does not pay: a control step costs {reduced}, and {exact} with the exact model ({COUNTED}). It pays \
+             if it saves 5 %."
         )
     }
 }

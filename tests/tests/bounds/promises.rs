@@ -248,7 +248,7 @@ fn the_guarantee_of_the_puma_ends_at_the_published_initial_error() {
                 link["limits"].as_object_mut().unwrap().remove("torque");
             }
             v["control"] = json!({
-                "law": "tight", "period": 0.0005, "W": [800, 900, 220, 35, 30, 35], "Pqq": 150.0, "Omega": 900.0,
+                "law": "tight", "robust_gain": "state", "period": 0.0005, "W": [800, 900, 220, 35, 30, 35], "Pqq": 150.0, "Omega": 900.0,
                 "boundary_layer": [0.024, 0.01, 0.021, 0.018, 0.017, 0.011],
                 "initial_error": { "position": error }
             });

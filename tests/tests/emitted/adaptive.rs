@@ -160,6 +160,9 @@ fn report_example(law: &str, layer: Option<f64>, duration: f64) -> Run {
         v["control"]["allow_long_period"] = json!(true);
         v["simulation"] = json!({ "duration": duration, "substeps": 1 });
         let control = v["control"].as_object_mut().unwrap();
+        if law == "report" {
+            control.insert("robust_gain".to_string(), json!("state"));
+        }
         match layer {
             Some(phi) => control.insert("boundary_layer".to_string(), json!(phi)),
             None => control.remove("boundary_layer"),
