@@ -26,7 +26,7 @@ use crate::cache::Cache;
 use crate::check::{Checked, Extent, checked};
 use crate::error::Error;
 use crate::load::Loaded;
-use crate::progress::Progress;
+use crate::progress::{Progress, Silent};
 
 /// What the stages are told besides the specification.
 #[derive(Clone, Copy)]
@@ -57,6 +57,8 @@ fn run(loaded: Loaded, extent: Extent, means: Means) -> Result<Generation, Error
     let checked = checked(loaded.clone(), extent).map_err(|error| expanded::with_count(error, &loaded))?;
     let mut designed = Designed::new(certified(checked, Wanted::Asked, means)?, means)?;
     if let Some(saving) = designed.too_small() {
+        // The same stages once more; each is reported once.
+        let means = Means { progress: &Silent, ..means };
         let exact = certified(designed.certified.checked, Wanted::Exact, means)?;
         designed = Designed { not_worth: Some(saving), ..Designed::new(exact, means)? };
     }

@@ -4,6 +4,7 @@ mod constants;
 mod controller;
 mod docs;
 mod literal;
+mod names;
 mod regression;
 mod statements;
 mod step;

@@ -1,10 +1,11 @@
 //! The graph as `let` statements.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
+use super::names::Names;
 use super::{literal, spaced, trig};
 use crate::error::Error;
 use crate::graph::{Graph, Node, NodeId, Variable};
@@ -82,10 +83,11 @@ pub(super) fn parts_with(
         let name = graph.names.get(id).and_then(Option::as_ref);
         let own_line = name.is_some_and(|name| name.own_line) || uses[id] > 1 || expression.operations > LONG;
         if leaf || !own_line {
+            names.describe(&node);
             written.push(expression);
             continue;
         }
-        let ident = names.fresh(name.map(|name| name.text.as_str()));
+        let ident = names.fresh(&node, name.map(|name| name.text.as_str()));
         let tokens = expression.tokens;
         statements.push(quote!(let #ident = #tokens;));
         written.push(Written::atom(quote!(#ident)));
@@ -108,7 +110,7 @@ fn trigonometry(graph: &Graph, names: &mut Names) -> Result<Vec<TokenStream>, Er
         .map(|(j, (sin, cos))| {
             let mut part = |used: bool, function: &str| {
                 let ident = format_ident!("{function}_q{}", j + 1);
-                names.taken.insert(ident.to_string());
+                names.take(&ident.to_string());
                 if used { quote!(#ident) } else { quote!(_) }
             };
             let (sin, cos) = (part(sin, "sin"), part(cos, "cos"));
@@ -192,23 +194,4 @@ fn write(graph: &Graph, node: Node, written: &[Written]) -> Result<Written, Erro
 
 fn named_atom(ident: Ident) -> Written {
     Written::atom(quote!(#ident))
-}
-
-/// Identifiers in use.
-#[derive(Default)]
-struct Names {
-    taken: BTreeSet<String>,
-    temporaries: usize,
-}
-
-impl Names {
-    /// The wished name if it is free, a numbered one otherwise.
-    fn fresh(&mut self, wished: Option<&str>) -> Ident {
-        let mut text = wished.unwrap_or_default().to_string();
-        while text.is_empty() || !self.taken.insert(text.clone()) {
-            self.temporaries += 1;
-            text = format!("t{}", self.temporaries);
-        }
-        Ident::new(&text, Span::call_site())
-    }
 }

@@ -173,7 +173,12 @@ impl Builder {
                 Node::Constant(bits) => self.constant(f64::from_bits(bits)),
                 Node::Add(a, b) => new[a] + new[b],
                 Node::Sub(a, b) => new[a] - new[b],
-                Node::Mul(a, b) => new[a] * new[b],
+                // A negative constant keeps its sign, so that what it makes keeps its name.
+                Node::Mul(a, b) => match (graph.negative(a), graph.negative(b)) {
+                    (Some(k), _) => new[b].scaled(k),
+                    (None, Some(k)) => new[a].scaled(k),
+                    (None, None) => new[a] * new[b],
+                },
                 Node::Neg(a) => -new[a],
                 Node::Abs(a) => new[a].abs(),
                 Node::Clamp(a, low, high) => new[a].clamp(new[low], new[high]),

@@ -30,9 +30,14 @@ impl<'g> Expr<'g> {
         self.id
     }
 
-    /// Names the node, unless it has a name already.
+    /// Names the node, unless it has a name already; of a negation also what is negated.
     pub fn named(self, text: &str, own_line: bool) -> Self {
         self.builder.name(self.id, text, own_line);
+        // Sums use what is negated, and subtract it.
+        if let Some(positive) = self.negated() {
+            let minus = text.strip_prefix("minus_").map_or(format!("minus_{text}"), str::to_string);
+            self.builder.name(positive.id, &minus, own_line);
+        }
         self
     }
 

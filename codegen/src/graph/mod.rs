@@ -40,3 +40,13 @@ pub struct Graph {
     /// By joint the power of 2 by which its angle is divided before its sine and cosine are taken; mostly 1.
     pub parts: [u8; MAX_JOINTS],
 }
+
+impl Graph {
+    /// The number, of a negative constant.
+    fn negative(&self, id: NodeId) -> Option<f64> {
+        match self.nodes[id] {
+            Node::Constant(bits) => Some(f64::from_bits(bits)).filter(|x| *x < 0.0),
+            _ => None,
+        }
+    }
+}

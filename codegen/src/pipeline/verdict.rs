@@ -13,8 +13,8 @@ impl Generation {
         if let Some(saving) = self.designed.not_worth {
             let Saving { reduced, exact } = saving;
             return format!(
-                "A control step costs {exact}, and {reduced} with the cheapest reduced model that was found ({COUNTED}). Less \
-                 than 5 % would be saved, so this is the exact model."
+                "This is the exact model, since the cheapest reduced one that was found saves less than 5 %: a control step costs \
+                 {exact}, and {reduced} with that one ({COUNTED})."
             );
         }
         if self.reduced().is_exact() {
@@ -43,8 +43,8 @@ fn of_steps(saving: Saving) -> String {
         format!("The reduction pays: a control step costs {reduced} instead of {exact} ({COUNTED}).")
     } else {
         format!(
-            "The reduction does not pay: a control step costs {reduced}, and {exact} with the exact model ({COUNTED}). It pays \
-             if it saves 5 %."
+            "The reduction does not pay, since it saves less than 5 %: a control step costs {reduced}, and {exact} with the \
+             exact model ({COUNTED})."
         )
     }
 }

@@ -90,7 +90,8 @@ impl<'g> Harmonics<'g> {
         }
         let (sin, cos) = single;
         let pair = if k == 2 {
-            let twice = sin + sin;
+            // A line of its own whether or not the cosine is needed too.
+            let twice = (sin + sin).named(&format!("twice_sin_q{}", j + 1), true);
             (twice * cos, self.builder.constant(1.0) - twice * sin)
         } else {
             sum(self.multiple(j, k - 1), single)

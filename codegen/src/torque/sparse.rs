@@ -28,7 +28,11 @@ pub fn sparse(lagrangian: &Lagrangian, model: &Sparse) -> Graph {
         let minus = group.terms.iter().all(|&(_, k)| k < 0.0);
         let first = group.members.first().map_or(String::new(), |&(m, _)| written.coefficients[m].name());
         let first = motion.name(first);
-        let name = if minus { format!("minus_{first}") } else { first };
+        let name = match first.strip_prefix("minus_") {
+            Some(plain) if minus => plain.to_string(),
+            None if minus => format!("minus_{first}"),
+            _ => first,
+        };
         let (mut apart, mut within) = (Vec::new(), Vec::new());
         for &(f, k) in &group.terms {
             let k = builder.constant(if minus { -k } else { k });

@@ -14,6 +14,7 @@ use gramforge::internals::choose::why_exact;
 use gramforge::internals::dynamics::inverse_dynamics;
 use gramforge::internals::lagrangian::expand;
 use gramforge::internals::numerics::low_discrepancy::{LowDiscrepancy, in_box};
+use gramforge::internals::progress::Silent;
 use gramforge::internals::reduction::{Dictionary, products};
 use gramforge::load::{Loaded, load};
 use gramforge::spec::{DictionarySpec, MeasureSpec, ModelSpec};
@@ -37,9 +38,10 @@ fn workspace() -> Loaded {
     loaded
 }
 
+/// The model alone: what its controller's step costs does not count.
 fn made(mut loaded: Loaded, model: ModelSpec) -> Generation {
     loaded.spec.model = model;
-    Generation::with_effort(loaded, &Effort::default().boxes(500)).unwrap()
+    Generation::model_only(loaded, &Effort::default().boxes(500), &Silent).unwrap()
 }
 
 fn within(loaded: &Loaded, torque: f64) -> Generation {
@@ -156,6 +158,29 @@ fn without_a_model_the_tolerance_is_one_per_cent() {
     let stated = within(&workspace(), 0.01);
     assert_eq!(auto.reduced(), stated.reduced());
     assert_eq!(auto.code(), stated.code());
+}
+
+/// Whole steps: never dearer than the exact one, never dearer for a larger tolerance, and reduced only where it pays.
+#[test]
+fn a_larger_tolerance_never_costs_a_step_more() {
+    for (name, tolerances) in [("puma560_one_percent", [0.002, 0.01, 0.05]), ("arm3_csv", [0.005, 0.1, 0.4])]
+    {
+        let mut loaded = load(&gramforge_tests::spec(name)).unwrap();
+        let mut before = usize::MAX;
+        let mut reduced = 0;
+        for torque in tolerances {
+            loaded.spec.model = ModelSpec::Tolerance { torque };
+            let made = Generation::with_effort(loaded.clone(), &Effort::default().boxes(500)).unwrap();
+            let [step, exact] =
+                [made.step(), made.exact_step()].map(|step| step.unwrap().operations().cost());
+            println!("{name} within {torque}: {step}, exact {exact}; {}", made.verdict());
+            assert!(step <= exact && step <= before);
+            assert!(made.reduced().is_exact() || 20 * step <= 19 * exact);
+            reduced += usize::from(!made.reduced().is_exact());
+            before = step;
+        }
+        assert!(reduced > 0, "{name}: no tolerance pays");
+    }
 }
 
 #[test]

@@ -2,6 +2,8 @@
 
 mod lifted;
 
+use std::collections::BTreeMap;
+
 use gramforge::Generation;
 use gramforge_generated::{
     arm3_adaptive, arm3_adaptive_guaranteed, arm3_exact, arm3_robust, arm3_xi1, arm3_xi2, arm3_xi3,
@@ -10,9 +12,10 @@ use gramforge_generated::{
 use gramforge_runtime::law::{Law, Sample};
 use gramforge_runtime::reference::Reference;
 use gramforge_runtime::{ControlStep, Controller, Desired, Model, StepController};
-use gramforge_tests::generation;
 use gramforge_tests::random::Random;
 use gramforge_tests::tracked::Tracked;
+use gramforge_tests::{edited, generation};
+use serde_json::{Value, json};
 
 use lifted::{Learnt, Lift, TrackedModel, tracked_step};
 
@@ -232,4 +235,40 @@ fn a_controller_can_be_a_static_and_is_small() {
     assert!(controller.step(&at.q, &at.qd, &at).is_ok());
     assert_eq!(size_of_val(&READY), (2 * 6 + 1) * 8);
     assert_eq!(size_of_val(&arm3_adaptive::controller()), (2 * 3 + 1 + 1) * 8);
+}
+
+/// The statements of a module's step: name and right side.
+fn statements(text: &str) -> BTreeMap<String, String> {
+    let step = text.split("fn step(").nth(1).expect("a step");
+    let step = step.split("\n    }\n").next().expect("its end");
+    let joined = step.split_whitespace().collect::<Vec<_>>().join(" ");
+    let of = |line: &str| {
+        let (name, value) = line.trim().strip_prefix("let ")?.split_once(" = ")?;
+        Some((name.to_string(), value.to_string()))
+    };
+    joined.split(';').filter_map(of).collect()
+}
+
+#[test]
+fn names_stay_from_one_size_to_the_next() {
+    for (name, sizes) in [("arm3_xi2", [2, 3]), ("ur5", [4, 6])] {
+        let [before, after] = sizes.map(|functions| {
+            let of_size = |v: &mut Value| v["model"] = json!({ "shared": { "functions": functions } });
+            let made = edited(name, of_size).unwrap_or_else(|message| panic!("{message}"));
+            statements(&made.module().unwrap())
+        });
+        let changed: Vec<_> = after.iter().filter(|&(name, value)| before.get(name) != Some(value)).collect();
+        let new = changed.iter().filter(|(name, _)| !before.contains_key(*name)).count();
+        // What both have and has no number in it is the same to the letter.
+        for (name, value) in &changed {
+            let numbers = value.split(' ').any(|word| word.parse::<f64>().is_ok_and(|x| x.fract() != 0.0));
+            assert!(numbers || !before.contains_key(*name), "{name}: {value}, before {}", before[*name]);
+        }
+        println!(
+            "{name}, {sizes:?} functions: {} of {} statements differ, {new} of them are new",
+            changed.len(),
+            after.len()
+        );
+        assert!(new > 0 && 2 * changed.len() < after.len());
+    }
 }

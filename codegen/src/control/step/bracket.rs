@@ -55,7 +55,7 @@ impl StepParts<'_> {
                 sum.named(&format!("acceleration{}", j + 1), true)
             })
             .collect();
-        let speed: Vec<Expr> = (0..n).map(|j| builder.input(Variable::Qd(j)).abs()).collect();
+        let speed: Vec<Expr> = (0..n).map(|j| speed(builder, j)).collect();
         let switching = self.coriolis_term == CoriolisTermSpec::Switching;
         let turned: Vec<Expr> = match switching {
             true => (0..n).map(|j| speed[j] + tracking.s[j].abs()).collect(),
@@ -84,7 +84,7 @@ impl StepParts<'_> {
         let n = tracking.s.len();
         let size = |x: &[Expr<'g>]| -> Vec<Expr<'g>> { x.iter().map(|x| x.abs()).collect() };
         let (v_r, a_r) = (size(&tracking.v_r), size(&tracking.a_r));
-        let speed: Vec<Expr> = (0..n).map(|j| builder.input(Variable::Qd(j)).abs()).collect();
+        let speed: Vec<Expr> = (0..n).map(|j| speed(builder, j)).collect();
         let row = |i: usize| {
             let h = &self.bounds.h[i];
             let mut coriolis = builder.constant(0.0);
@@ -109,6 +109,11 @@ impl StepParts<'_> {
         };
         (0..n).map(row).collect()
     }
+}
+
+/// |q̇_j|.
+fn speed(builder: &Builder, j: usize) -> Expr<'_> {
+    builder.input(Variable::Qd(j)).abs().named(&format!("speed{}", j + 1), false)
 }
 
 fn named<'g>(rho: Expr<'g>, i: usize) -> Expr<'g> {

@@ -116,7 +116,7 @@ impl StepParts<'_> {
         let input = |variable| builder.input(variable);
         let q_e = all(&|i| input(Variable::Q(i)) - input(Variable::DesiredQ(i)), "q_e");
         let qd_e = all(&|i| input(Variable::Qd(i)) - input(Variable::DesiredQd(i)), "qd_e");
-        let pulled: Vec<_> = (0..n).map(|i| weighed(builder, &self.gains.p12[i], &q_e)).collect();
+        let pulled = all(&|i| weighed(builder, &self.gains.p12[i], &q_e), "p12_q_e");
         let s = all(&|i| qd_e[i] + pulled[i], "s");
         let v_r = all(&|i| input(Variable::DesiredQd(i)) - pulled[i], "v_r");
         let slowed = |i: usize| weighed(builder, &self.gains.p12[i], &qd_e);

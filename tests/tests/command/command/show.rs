@@ -39,10 +39,15 @@ type Judged = (&'static str, fn(&mut Value), &'static str);
 
 #[test]
 fn the_verdict_follows_from_the_operations() {
-    // Reduced and cheaper, reduced and dearer, exact, and exact because nothing cheaper keeps within the tolerance.
+    // Reduced and cheaper, reduced and dearer, cheaper without a controller, exact, exact because nothing cheaper keeps within
+    // the tolerance, and exact because what does saves too little.
     let strict = |spec: &mut Value| spec["model"] = json!({ "tolerance": { "torque": 1e-6 } });
-    let cases: [Judged; 4] = [
-        ("arm3_xi1", |_| {}, "The reduction pays"),
+    let loose = |spec: &mut Value| spec["model"] = json!({ "tolerance": { "torque": 0.03 } });
+    let alone = |spec: &mut Value| drop(spec.as_object_mut().expect("an object").remove("control"));
+    let cases: [Judged; 6] = [
+        ("puma560_one_percent", |_| {}, "The reduction pays"),
+        ("arm3_xi1", alone, "The reduction pays"),
+        ("arm3_xi2", loose, "saves less than 5 %"),
         (
             "arm3_xi2",
             |spec| spec["model"] = json!({ "shared": { "functions": 4 } }),
@@ -61,13 +66,19 @@ fn the_verdict_follows_from_the_operations() {
         let verdict = view["verdict"].as_str().expect("a sentence");
         assert!(verdict.contains(words), "{name}: {verdict}");
         assert!(verdict.ends_with('.') && verdict.matches(". ").count() == 0, "one sentence: {verdict}");
+        let controlled = !view["step_operations"].is_null();
+        let counted = &view[if controlled { "step_operations" } else { "operations" }];
         let cost = |kind: &str| {
-            let count = |key: &str| view["operations"][kind][key].as_u64().expect("a count");
-            count("mul") + count("add") + 12 * count("trig_pairs")
+            let count = |key: &str| counted[kind][key].as_u64().expect("a count");
+            count("mul") + count("add") + 2 * count("other") + 5 * count("div") + 12 * count("trig_pairs")
         };
-        assert_eq!(verdict.contains("reduction pays"), cost("reduced") < cost("exact"), "{verdict}");
+        // A step must save a twentieth.
+        let (ours, theirs) = if controlled { (20, 19) } else { (20, 20) };
+        let pays = ours * cost("reduced") <= theirs * cost("exact") && cost("reduced") < cost("exact");
+        assert_eq!(verdict.contains("reduction pays"), pays, "{verdict}");
         let error = view["torque_error"].as_array().expect("a list");
-        assert_eq!((error.len(), view["peak_torque"].as_array().map(Vec::len)), (3, Some(3)));
+        let joints = view["joints"].as_u64().expect("a count") as usize;
+        assert_eq!((error.len(), view["peak_torque"].as_array().map(Vec::len)), (joints, Some(joints)));
         // The same sentences wherever it is spoken of.
         let out = folder.path().join("out");
         let mut command = gramforge();
