@@ -56,11 +56,20 @@ fn run(loaded: Loaded, extent: Extent, means: Means) -> Result<Generation, Error
     threads::check()?;
     let checked = checked(loaded.clone(), extent).map_err(|error| expanded::with_count(error, &loaded))?;
     let mut designed = Designed::new(certified(checked, Wanted::Asked, means)?, means)?;
+    // The same stages once more; each is reported once.
+    let quiet = Means { progress: &Silent, ..means };
+    let exact = |designed: &Designed| {
+        let checked = designed.certified.checked.clone();
+        Designed::new(certified(checked, Wanted::Exact, quiet)?, quiet)
+    };
+    // Where no exact controller can be had, that of an arm without uncertainty stands for it.
+    let twin = designed.needs_twin().then(|| exact(&designed)).and_then(Result::ok);
+    if let Some(twin) = &twin {
+        designed.exact_step.clone_from(&twin.step);
+    }
     if let Some(saving) = designed.too_small() {
-        // The same stages once more; each is reported once.
-        let means = Means { progress: &Silent, ..means };
-        let exact = certified(designed.certified.checked, Wanted::Exact, means)?;
-        designed = Designed { not_worth: Some(saving), ..Designed::new(exact, means)? };
+        let twin = twin.map_or_else(|| exact(&designed), Ok)?;
+        designed = Designed { not_worth: Some(saving), ..twin };
     }
     Ok(Generation::concluded(designed, means))
 }

@@ -318,18 +318,13 @@ impl Design {
         .graph()
     }
 
-    /// The step of the same law about the exact model, whose code is `code`, with nothing left out. What is `uncertain` about
-    /// an arm takes a constant gain.
-    pub fn exact_step(&self, code: &Graph, viscous: &[f64], uncertain: bool) -> StepGraph {
+    /// The step of the same law about the exact model, whose code is `code`, with nothing left out.
+    pub fn exact_step(&self, code: &Graph, viscous: &[f64]) -> StepGraph {
         let n = viscous.len();
-        let robust_gain = match &self.robust_gain {
-            _ if !uncertain => RobustGain::State,
-            RobustGain::State => RobustGain::Constant(vec![1.0; n]),
-            constant => constant.clone(),
-        };
         let zero = vec![vec![0.0; n]; n];
         let bounds = Bounds { d: zero.clone(), h: vec![zero.clone(); n], b: vec![0.0; n], g: vec![0.0; n] };
-        let exact = Self { robust_gain, delta_c: zero.clone(), delta_c1: zero, ..self.clone() };
+        let exact =
+            Self { robust_gain: RobustGain::State, delta_c: zero.clone(), delta_c1: zero, ..self.clone() };
         exact.step(&StepModel { code, regressor: None, bounds: &bounds, viscous })
     }
 

@@ -12,7 +12,7 @@ use crate::graph::{Node, Variable};
 /// The impl of the runtime's `ControlStep`, its operation counts, and the controller.
 pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<TokenStream, Error> {
     let n = count(module.arm.dof());
-    let learns = step.code.outputs.len() - step.joints;
+    let learns = step.parameters;
     let p = count(learns);
     let learnt = |learning: TokenStream, none: TokenStream| if learns == 0 { none } else { learning };
     let parameters = learnt(quote!(#n, #p), quote!(#n));
@@ -23,7 +23,9 @@ pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<T
     let wanted: Vec<_> = step.asked().into_iter().chain(step.code.outputs.iter().copied()).collect();
     let (statements, values) = statements::parts_with(&step.code, &wanted)?;
     let (asked, rest) = values.split_at(step.joints.min(values.len()));
-    let (limited, theta) = rest.split_at(step.joints.min(rest.len()));
+    let (limited, rest) = rest.split_at(step.joints.min(rest.len()));
+    let (theta, unread) = rest.split_at(learns.min(rest.len()));
+    let unread = unread.first().cloned().unwrap_or(quote!(0.0));
     let [asked, limited, theta] = [asked, limited, theta].map(|values| spaced(values.iter().cloned()));
     let used = |test: fn(&Node) -> bool| step.code.nodes.iter().any(test);
     let functions: Vec<Ident> = [
@@ -38,7 +40,6 @@ pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<T
         (!functions.is_empty()).then(|| quote!(use ::gramforge_runtime::step::{#(#functions),*};));
     let read = used(|node| matches!(node, Node::Input(Variable::Theta(_))));
     let learnt_so_far = if read { format_ident!("theta") } else { format_ident!("_theta") };
-    let reach = step.faults_reach_torque();
     let (unused, plain, counts) = (unused(), plain_numbers(), counts(step));
     Ok(quote! {
         #counts
@@ -47,7 +48,6 @@ pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<T
         impl ::gramforge_runtime::ControlStep<#parameters> for #model {
             type Scalar = f64;
             const SETTINGS: ::gramforge_runtime::Settings<f64, #n> = SETTINGS;
-            const FAULTS_REACH_TORQUE: bool = #reach;
             const LEARNING: ::gramforge_runtime::step::Learning<f64, #p> = #learning;
 
             fn step(
@@ -58,7 +58,12 @@ pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<T
             ) -> ::gramforge_runtime::step::StepTorque<f64, #parameters> {
                 #functions
                 #(#statements)*
-                ::gramforge_runtime::step::StepTorque { asked: #asked, limited: #limited, theta: #theta }
+                ::gramforge_runtime::step::StepTorque {
+                    asked: #asked,
+                    limited: #limited,
+                    unread: #unread,
+                    theta: #theta,
+                }
             }
 
             fn gravity_torque(q: &[f64; #n]) -> [f64; #n] {

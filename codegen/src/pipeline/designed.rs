@@ -60,11 +60,20 @@ impl Designed {
                 (Err(_), other) => other?,
             },
         };
-        let exact_step = (design.adaptation.is_none()).then(|| {
-            let uncertain = !certified.checked.built.uncertainty.is_empty();
-            design.exact_step(&certified.proved.exact, &viscous(&certified.checked), uncertain)
-        });
+        let exact_step =
+            (design.adaptation.is_none()).then(|| match certified.proved.model.reduced.is_exact() {
+                true => step.clone(),
+                false => design.exact_step(&certified.proved.exact, &viscous(&certified.checked)),
+            });
         Ok(Self { certified, design: Some(design), step: Some(step), exact_step, not_worth: None })
+    }
+
+    /// Whether the step of the exact model is known only once its controller is designed: it has bounds of its own.
+    pub fn needs_twin(&self) -> bool {
+        let Certified { checked, setting, proved } = &self.certified;
+        let bounded =
+            !checked.built.uncertainty.is_empty() || !setting.sines.rounds() || setting.angles.is_some();
+        self.exact_step.is_some() && !proved.model.reduced.is_exact() && bounded
     }
 
     /// What the step saves against that of the exact model; `None` where there is nothing to compare.

@@ -237,8 +237,7 @@ impl Generation {
         self.designed.step.as_ref()
     }
 
-    /// The step of the same law about the exact model, with a constant gain for what is uncertain about the arm; `None` without
-    /// a controller, or for a law that learns.
+    /// The step of the same law about the exact model; `None` without a controller, or for a law that learns.
     pub fn exact_step(&self) -> Option<&StepGraph> {
         self.designed.exact_step.as_ref()
     }

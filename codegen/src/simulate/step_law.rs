@@ -16,6 +16,7 @@ pub const MOST_LEARNT: usize = 512;
 pub(super) struct StepLaw {
     /// Outputs: the torques before they are limited, which the loop does, then the parameters after the period.
     code: Graph,
+    learnt: usize,
     initial: Learnt,
 }
 
@@ -34,7 +35,11 @@ impl StepLaw {
     pub(super) fn new(step: &StepGraph, initial: &[f64]) -> Self {
         let mut code = step.code.clone();
         code.outputs.splice(..step.joints, step.asked());
-        Self { code, initial: Learnt(from_fn(|k| initial.get(k).copied().unwrap_or(0.0))) }
+        Self {
+            code,
+            learnt: step.parameters,
+            initial: Learnt(from_fn(|k| initial.get(k).copied().unwrap_or(0.0))),
+        }
     }
 }
 
@@ -49,7 +54,7 @@ impl<M: Model<N, Scalar = f64>, const N: usize> Law<M, N> for StepLaw {
         let desired = &sample.desired;
         let desired = [desired.q.as_slice(), &desired.qd, &desired.qdd];
         let out = self.code.interpret_step(&sample.q, &sample.qd, desired, &state.0);
-        for (theta, &next) in state.0.iter_mut().zip(out.iter().skip(N)) {
+        for (theta, &next) in state.0.iter_mut().zip(out.iter().skip(N).take(self.learnt)) {
             // NaN is not taken.
             if next.is_finite() {
                 *theta = next;

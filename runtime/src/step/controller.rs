@@ -58,14 +58,10 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
         desired: &Desired<S::Scalar, N>,
     ) -> Result<Command<S::Scalar, N>, Fault<S::Scalar, N>> {
         // Two conditions in one `if let` need a newer Rust than this crate asks for.
-        if !S::FAULTS_REACH_TORQUE {
-            if let Some((quantity, joint)) = not_finite(q, qd, desired) {
-                return Err(self.fault(q, quantity, joint));
-            }
-        }
-        let StepTorque { asked, limited, theta } = S::step(q, qd, desired, &self.theta);
-        // 0 times a finite number is 0, so one comparison does for all joints.
-        if asked.iter().fold(S::Scalar::ZERO, |sum, &x| sum + x * S::Scalar::ZERO) != S::Scalar::ZERO {
+        let StepTorque { asked, limited, unread, theta } = S::step(q, qd, desired, &self.theta);
+        // 0 times a finite number is 0, so one comparison does for all.
+        let zero = S::Scalar::ZERO;
+        if asked.iter().fold(unread * zero, |sum, &x| sum + x * zero) != zero {
             return Err(self.fault_of(q, qd, desired, &asked));
         }
         for (learnt, next) in self.theta.iter_mut().zip(theta) {

@@ -20,10 +20,6 @@ pub trait ControlStep<const N: usize, const P: usize = 0> {
     /// Period, torque limits and fault policy. Every number in it is as [`Settings::check`] demands.
     const SETTINGS: Settings<Self::Scalar, N>;
 
-    /// Whether an infinite or NaN position, velocity or desired value of any joint makes the torque of some joint infinite or
-    /// NaN, before it is limited. Only then is one look at the torques enough.
-    const FAULTS_REACH_TORQUE: bool;
-
     /// The box of the parameters, and where they start.
     const LEARNING: Learning<Self::Scalar, P>;
 
@@ -63,6 +59,9 @@ pub struct StepTorque<T, const N: usize, const P: usize = 0> {
     pub asked: [T; N],
     /// The same within the torque limits.
     pub limited: [T; N],
+    /// The sum of the inputs that no torque depends on; 0 if there are none. An infinite or NaN input makes this sum or a
+    /// torque that is asked infinite or NaN, so one look at these is enough.
+    pub unread: T,
     /// The parameters after this period, inside their box or NaN.
     pub theta: [T; P],
 }

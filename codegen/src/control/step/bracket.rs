@@ -28,7 +28,6 @@ impl StepParts<'_> {
                     // NaN stays NaN, so that the loop sees it.
                     None => s.select(rho, -rho, s),
                     // A constant ρ is folded into the slope.
-                    // A constant ρ is folded into the slope.
                     Some(phi) => match rho.value() {
                         Some(number) => (builder.constant(number / phi[i]) * s).clamp(-rho, rho),
                         None => {

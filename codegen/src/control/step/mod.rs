@@ -63,13 +63,17 @@ pub struct StepParts<'a> {
 
 /// A control step as a graph.
 ///
-/// Holds: the outputs are the torques within their limits by joint, then the parameters after the period.
+/// Holds: the outputs are the torques within their limits by joint, then the parameters after the period, then the sum of
+/// the inputs that no torque depends on, if there are any. An infinite or NaN input makes that sum or some torque, before it is
+/// limited, infinite or NaN.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepGraph {
     /// The graph.
     pub code: Graph,
     /// Number of joints.
     pub joints: usize,
+    /// Number of parameters that the law learns.
+    pub parameters: usize,
 }
 
 /// Errors and reference motion of the instant, by joint: [`gramforge_runtime::law::Tracking`].
@@ -84,6 +88,15 @@ struct Tracking<'g> {
 impl StepParts<'_> {
     /// The step.
     pub fn graph(&self) -> StepGraph {
+        let step = self.graph_with(&[]);
+        match step.unread() {
+            unread if unread.is_empty() => step,
+            unread => self.graph_with(&unread),
+        }
+    }
+
+    /// The step with the sum of these inputs as its last output, if there are any.
+    fn graph_with(&self, unread: &[Variable]) -> StepGraph {
         let builder = Builder::new();
         builder.divide(self.code.parts);
         let n = self.gains.p12.len();
@@ -103,9 +116,17 @@ impl StepParts<'_> {
         };
         let torques: Vec<Expr> = (0..n).map(feedback).collect();
         let mut outputs: Vec<Expr> = torques.iter().zip(self.torque_limit).map(limited).collect();
-        outputs.extend(self.learnt(&builder, &tracking, &columns));
+        let learnt = self.learnt(&builder, &tracking, &columns);
+        let parameters = learnt.len();
+        outputs.extend(learnt);
+        let inputs = unread.iter().map(|&variable| builder.input(variable));
+        outputs.extend(inputs.reduce(|sum, input| sum + input));
         let outputs: Vec<_> = outputs.into_iter().map(Expr::id).collect();
-        StepGraph { code: Graph { sines: self.code.sines.clone(), ..builder.finish(&outputs) }, joints: n }
+        StepGraph {
+            code: Graph { sines: self.code.sines.clone(), ..builder.finish(&outputs) },
+            joints: n,
+            parameters,
+        }
     }
 
     fn tracking<'g>(&self, builder: &'g Builder) -> Tracking<'g> {
@@ -186,10 +207,9 @@ impl StepGraph {
         self.code.outputs[..self.joints].iter().map(raw).collect()
     }
 
-    /// Whether an infinite or NaN input of any joint makes some torque infinite or NaN, before it is limited: every input has
-    /// a way to a torque through sums, products, negations, absolute values, sines and cosines alone. None of these makes a
-    /// finite number of what is not finite.
-    pub fn faults_reach_torque(&self) -> bool {
+    /// The inputs whose infinity or NaN reaches no torque before it is limited. The others have a way to a torque through sums,
+    /// products, negations, absolute values, sines and cosines alone. None of these makes a finite number of what is not finite.
+    fn unread(&self) -> Vec<Variable> {
         let mut reaches = vec![false; self.code.nodes.len()];
         self.asked().into_iter().for_each(|torque| reaches[torque] = true);
         for (id, node) in self.code.nodes.iter().enumerate().rev() {
@@ -197,7 +217,7 @@ impl StepGraph {
                 node.operands().for_each(|operand| reaches[operand] = true);
             }
         }
-        let known = |variable: Variable| {
+        let read = |variable: Variable| {
             self.code.nodes.iter().zip(&reaches).any(|(node, &reached)| {
                 reached
                     && match *node {
@@ -209,7 +229,8 @@ impl StepGraph {
         };
         let inputs: [fn(usize) -> Variable; 5] =
             [Variable::Q, Variable::Qd, Variable::DesiredQ, Variable::DesiredQd, Variable::DesiredQdd];
-        (0..self.joints).all(|j| inputs.iter().all(|input| known(input(j))))
+        let all = (0..self.joints).flat_map(|j| inputs.map(|input| input(j)));
+        all.filter(|&variable| !read(variable)).collect()
     }
 }
 

@@ -185,7 +185,7 @@ pub fn tracked_step<const N: usize, const P: usize>(
     };
     let all = values(&step.code, q, read, Tracked::rounded);
     let asked = step.asked();
-    asked.iter().chain(&step.code.outputs[step.joints..]).map(|&id| all[id]).collect()
+    asked.iter().chain(&step.code.outputs[step.joints..step.joints + P]).map(|&id| all[id]).collect()
 }
 
 /// The model of a generation: its graph, its bounds.
