@@ -35,7 +35,7 @@ impl Operations {
     }
 
     /// What code is compared by: multiplications and additions, with every clamp, division and pair of sine and cosine as
-    /// [`CLAMP`], [`DIVISION`] and [`TRIG_PAIR`].
+    /// 2, 5 and [`TRIG_PAIR`].
     pub fn cost(&self) -> usize {
         self.mul + self.add + CLAMP * self.other + DIVISION * self.div + TRIG_PAIR * self.trig_pairs
     }
