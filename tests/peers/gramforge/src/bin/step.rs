@@ -7,7 +7,10 @@
 
 use std::hint::black_box;
 
-use gramforge_runtime::{Controller, CoriolisTerm, Model, QuinticReference, ReportLaw, Settings, Switching};
+use gramforge_runtime::{
+    Bounds, ConstantGainLaw, CoriolisTerm, Gains, Model, QuinticReference, ReportLaw, Settings,
+    StepController, Switching,
+};
 
 #[path = "../drive.rs"]
 mod drive;
@@ -23,7 +26,7 @@ macro_rules! steps {
             mod $name {
                 include!(concat!(env!("GRAMFORGE_MODULES"), "/", stringify!($name), ".rs"));
 
-                pub type Loop = crate::Controller<$model, crate::ReportLaw<f64, $joints>, $joints>;
+                pub type Loop = crate::StepController<$model, $joints>;
 
                 /// Not inlined, as calls across object files are not; its name is what callgrind counts by.
                 #[inline(never)]
@@ -40,9 +43,9 @@ macro_rules! steps {
         fn run(name: &str, numbers: &[f64], mode: &str) {
             match name {
                 $(stringify!($name) => {
-                    let mut controller = $name::controller().expect("sound constants");
+                    let mut controller = $name::controller();
                     if mode == "constants" {
-                        match constants(&controller, &$name::REFERENCE) {
+                        match constants(&$name::$model, &$name::LAW, &$name::SETTINGS, &$name::REFERENCE) {
                             Ok(text) => print!("{text}"),
                             Err(what) => {
                                 eprintln!("the law has {what}, which native/step.c leaves out");
@@ -74,30 +77,70 @@ fn states<const N: usize>(numbers: &[f64]) -> Vec<State<N>> {
 /// Bounds of an exact model that are smaller come from right angles written with few digits: nobody would write them by hand.
 const NEGLIGIBLE: f64 = 1e-8;
 
+/// What native/step.c needs of a law whose gain ρ is a number by joint.
+trait Written<const N: usize> {
+    fn gains(&self) -> &Gains<f64, N>;
+    fn switching(&self) -> &Switching<f64, N>;
+    fn coulomb(&self) -> &[[f64; 2]; N];
+    /// ρ, or what the law has instead of a number.
+    fn robust_gain(&self, bounds: &Bounds<f64, N>) -> Result<[f64; N], &'static str>;
+}
+
+impl<const N: usize> Written<N> for ConstantGainLaw<f64, N> {
+    fn gains(&self) -> &Gains<f64, N> {
+        &self.gains
+    }
+    fn switching(&self) -> &Switching<f64, N> {
+        &self.switching
+    }
+    fn coulomb(&self) -> &[[f64; 2]; N] {
+        &self.coulomb
+    }
+    fn robust_gain(&self, _bounds: &Bounds<f64, N>) -> Result<[f64; N], &'static str> {
+        Ok(self.robust_gain)
+    }
+}
+
+impl<const N: usize> Written<N> for ReportLaw<f64, N> {
+    fn gains(&self) -> &Gains<f64, N> {
+        &self.gains
+    }
+    fn switching(&self) -> &Switching<f64, N> {
+        &self.switching
+    }
+    fn coulomb(&self) -> &[[f64; 2]; N] {
+        &self.coulomb
+    }
+    fn robust_gain(&self, bounds: &Bounds<f64, N>) -> Result<[f64; N], &'static str> {
+        let zero = |matrix: &[[f64; N]; N]| matrix.as_flattened().iter().all(|x| x.abs() < NEGLIGIBLE);
+        if !(zero(&bounds.d) && zero(&self.delta_c) && zero(&[bounds.b; N])) {
+            return Err("bounds of an uncertain model");
+        }
+        if !matches!(&self.coriolis_term, CoriolisTerm::Matrix(matrix) if zero(matrix)) {
+            return Err("a Coriolis term");
+        }
+        Ok(std::array::from_fn(|i| bounds.g[i] + self.disturbance[i]))
+    }
+}
+
 /// What native/step.c includes; else what the law has and that file leaves out.
-fn constants<M: Model<N, Scalar = f64>, const N: usize>(
-    controller: &Controller<M, ReportLaw<f64, N>, N>,
+fn constants<const N: usize>(
+    model: &impl Model<N, Scalar = f64>,
+    law: &impl Written<N>,
+    Settings { torque_limit, .. }: &Settings<f64, N>,
     reference: &QuinticReference<f64, N>,
 ) -> Result<String, &'static str> {
-    let (law, Settings { torque_limit, .. }) = (controller.law(), controller.settings());
-    let bounds = controller.model().bounds();
-    let zero = |matrix: &[[f64; N]; N]| matrix.as_flattened().iter().all(|x| x.abs() < NEGLIGIBLE);
-    let left_out = [
-        (!(zero(&bounds.d) && zero(&law.delta_c) && zero(&[bounds.b; N])), "bounds of an uncertain model"),
-        (!matches!(&law.coriolis_term, CoriolisTerm::Matrix(matrix) if zero(matrix)), "a Coriolis term"),
-        (law.coulomb != [[0.0; 2]; N], "compensation of Coulomb friction"),
-        (
-            [&law.gains.p12, &law.gains.damping, &law.gains.pqq].into_iter().any(is_full),
-            "gains that are not diagonal",
-        ),
-    ];
-    if let Some((_, what)) = left_out.iter().find(|(given, _)| *given) {
-        return Err(what);
+    let gain = law.robust_gain(model.bounds())?;
+    let gains = law.gains();
+    if *law.coulomb() != [[0.0; 2]; N] {
+        return Err("compensation of Coulomb friction");
     }
-
-    let gain: [f64; N] = std::array::from_fn(|i| bounds.g[i] + law.disturbance[i]);
-    let (robust, limited) = (!zero(&[gain; N]), torque_limit.iter().any(Option::is_some));
-    let layer = match law.switching {
+    if [&gains.p12, &gains.damping, &gains.pqq].into_iter().any(is_full) {
+        return Err("gains that are not diagonal");
+    }
+    let (robust, limited) =
+        (gain.iter().any(|x| x.abs() >= NEGLIGIBLE), torque_limit.iter().any(Option::is_some));
+    let layer = match *law.switching() {
         Switching::BoundaryLayer(phi) if robust => Some(phi),
         _ => None,
     };
@@ -105,9 +148,8 @@ fn constants<M: Model<N, Scalar = f64>, const N: usize>(
     let mut text = format!("#define N {N}\n#define DURATION {:?}\n", reference.duration);
     text += &(flag("ROBUST", robust) + &flag("LAYER", layer.is_some()) + &flag("LIMITED", limited));
     text += &(vector("FROM", reference.from) + &vector("TO", reference.to));
-    text += &(vector("P12", diagonal(&law.gains.p12)) + &vector("DAMPING", diagonal(&law.gains.damping)));
-    text += &(vector("PQQ", diagonal(&law.gains.pqq))
-        + &vector("VISCOUS", controller.model().viscous_friction()));
+    text += &(vector("P12", diagonal(&gains.p12)) + &vector("DAMPING", diagonal(&gains.damping)));
+    text += &(vector("PQQ", diagonal(&gains.pqq)) + &vector("VISCOUS", model.viscous_friction()));
     text += &(vector("GAIN", gain) + &vector("PHI", layer.unwrap_or([1.0; N])));
     Ok(text + &vector("LIMIT", torque_limit.map(|limit| limit.unwrap_or(f64::MAX))))
 }
