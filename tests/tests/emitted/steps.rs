@@ -261,7 +261,8 @@ fn names_stay_from_one_size_to_the_next() {
         let new = changed.iter().filter(|(name, _)| !before.contains_key(*name)).count();
         // What both have and has no number in it is the same to the letter.
         for (name, value) in &changed {
-            let numbers = value.split(' ').any(|word| word.parse::<f64>().is_ok_and(|x| x.fract() != 0.0));
+            let mut words = value.split(|c: char| !c.is_ascii_digit() && c != '.');
+            let numbers = words.any(|word| word.parse::<f64>().is_ok_and(|x| x.fract() != 0.0));
             assert!(numbers || !before.contains_key(*name), "{name}: {value}, before {}", before[*name]);
         }
         println!(
