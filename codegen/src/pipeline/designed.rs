@@ -2,7 +2,7 @@
 
 use super::Means;
 use super::certified::Certified;
-use crate::check::{Checked, Control};
+use crate::check::{Checked, Control, GainSource};
 use crate::control::{Design, DesignProblem, StepGraph, StepModel, design};
 use crate::error::{Diagnostics, Error};
 use crate::spec::RobustGainSpec;
@@ -54,10 +54,14 @@ impl Designed {
             RobustGainSpec::Constant => constant()?,
             // Where nothing is left out, there is no bracket to replace.
             RobustGainSpec::Auto if certified.proved.bounds.is_zero() => state()?,
-            RobustGainSpec::Auto => match (state(), constant()) {
-                (Ok(own), Ok(other)) => cheaper(own, other),
-                (own, Err(_)) => own?,
-                (Err(_), other) => other?,
+            RobustGainSpec::Auto => match state() {
+                Ok(own) => match constant() {
+                    Ok(other) => cheaper(own, other),
+                    Err(_) => own,
+                },
+                // A search for gains takes long where it finds none; one is enough.
+                Err(error) if matches!(control.gains, GainSource::Requested(_)) => return Err(error),
+                Err(error) => constant().map_err(|_| error)?,
             },
         };
         let exact_step =
