@@ -2,7 +2,7 @@
 
 use super::Means;
 use super::certified::Certified;
-use crate::check::{Checked, Control, GainSource};
+use crate::check::{Checked, Control, GainSource, Tuning};
 use crate::control::{Design, DesignProblem, StepGraph, StepModel, design};
 use crate::error::{Diagnostics, Error};
 use crate::spec::RobustGainSpec;
@@ -55,10 +55,14 @@ impl Designed {
             // Where nothing is left out, there is no bracket to replace.
             RobustGainSpec::Auto if certified.proved.bounds.is_zero() => state()?,
             RobustGainSpec::Auto => match state() {
-                Ok(own) => match constant() {
-                    Ok(other) => cheaper(own, other),
-                    Err(_) => own,
-                },
+                // Gains that were searched for are judged again, not searched for again.
+                Ok(own) => {
+                    let same = Control { gains: GainSource::Given(tuning(&own.0)), ..control.clone() };
+                    match with_gain(&certified, &same, means, true) {
+                        Ok(other) => cheaper(own, other),
+                        Err(_) => own,
+                    }
+                }
                 // A search for gains takes long where it finds none; one is enough.
                 Err(error) if matches!(control.gains, GainSource::Requested(_)) => return Err(error),
                 Err(error) => constant().map_err(|_| error)?,
@@ -92,6 +96,17 @@ impl Designed {
         let open = self.certified.checked.loaded.spec.model.tolerance().is_some();
         let reduced = !self.certified.proved.model.reduced.is_exact();
         self.saving().filter(|saving| open && reduced && !saving.pays())
+    }
+}
+
+/// The numbers of a design, as a specification gives them.
+fn tuning(design: &Design) -> Tuning {
+    Tuning {
+        period: design.period,
+        w: design.w.clone(),
+        pqq: design.gains.pqq.clone(),
+        omega: design.omega.clone(),
+        boundary_layer: design.boundary_layer.clone(),
     }
 }
 
