@@ -62,10 +62,11 @@ fn run(loaded: Loaded, extent: Extent, means: Means) -> Result<Generation, Error
         let checked = designed.certified.checked.clone();
         Designed::new(certified(checked, Wanted::Exact, quiet)?, quiet)
     };
-    // Where no exact controller can be had, that of an arm without uncertainty stands for it.
-    let twin = designed.needs_twin().then(|| exact(&designed)).and_then(Result::ok);
-    if let Some(twin) = &twin {
-        designed.exact_step.clone_from(&twin.step);
+    let mut twin = None;
+    if designed.needs_twin() {
+        // Where no exact controller can be had, there is no step to compare with.
+        twin = exact(&designed).ok();
+        designed.exact_step = twin.as_ref().and_then(|twin| twin.step.clone());
     }
     if let Some(saving) = designed.too_small() {
         let twin = twin.map_or_else(|| exact(&designed), Ok)?;

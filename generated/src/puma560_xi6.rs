@@ -467,7 +467,7 @@ pub const GUARANTEED: bool = false;
 /// it could not be certified.
 #[allow(dead_code, clippy::approx_constant)]
 pub const PERIOD_MAX: ::core::option::Option<f64> = ::core::option::Option::Some(
-    0.008867071833513346,
+    0.008867065793725513,
 );
 
 /// Bound on |q − q_d| by joint, rad or m, once the effect of the initial errors has died away. A short motion may end

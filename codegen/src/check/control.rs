@@ -11,9 +11,6 @@ use crate::text::has;
 /// Rounding that passes for symmetry or for zero, relative to the largest entry.
 const SLACK: f64 = 1e-9;
 
-/// A layer thinner than this has a slope that overflows.
-const THINNEST: f64 = 1e-100;
-
 /// Checks period, boundary layer, initial errors, and the gains: W, Pqq, Ω symmetric positive definite, P12 = Pqq⁻¹Ω
 /// symmetric and element-wise nonnegative.
 pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut Diagnostics) {
@@ -21,8 +18,8 @@ pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut D
         faults.push("control.period", format!("is {}", scientific(period)), "write a number above 0, in s");
     }
     if let Some(layer) = &control.boundary_layer {
-        let wanted = "a number above 1e-100, or leave the field out for the sign function";
-        entries("control.boundary_layer", layer, joints, |v| v > THINNEST, wanted, faults);
+        let wanted = "a number above 0, or leave the field out for the sign function";
+        entries("control.boundary_layer", layer, joints, |v| v > 0.0, wanted, faults);
     }
     let initial = &control.initial_error;
     let wanted = "a number of at least 0";

@@ -163,6 +163,8 @@ struct ControlView<'a> {
     Omega: MatrixSpec,
     /// Absent for the sign function.
     boundary_layer: Option<&'a [f64]>,
+    /// A constant switching gain by joint, N·m or N; absent for the law's own.
+    robust_gain: Option<&'a [f64]>,
     period: f64,
     k_star: f64,
     v_max: f64,

@@ -10,7 +10,7 @@ use super::region::{cells, outside, position_bound, start};
 use super::rounding::Rounding;
 use super::tube_needed::shape;
 use super::{DesignProblem, family};
-use crate::bounds::Rates;
+use crate::bounds::{Rates, six_digits_up};
 use crate::check::InitialError;
 use crate::error::Error;
 use crate::number;
@@ -123,9 +123,11 @@ impl Parts<'_> {
         let delta_c = bounds.coriolis(&envelope.speed);
         let k_star = family::smallest_multiple(&delta_c);
         let delta_c1 = control.delta_c1.clone().unwrap_or_else(|| family::multiple_of_identity(k_star, n));
-        let load = closed_loop.load(&envelope.position_error, &envelope.velocity_error, &delta_c);
+        let mut load = closed_loop.load(&envelope.position_error, &envelope.velocity_error, &delta_c);
         let (rates, _) = closed_loop.rates(&envelope.position_error, &envelope.velocity_error);
         if self.constant {
+            // Written with six digits, the gain is no larger than what chatter and period are judged with.
+            load.gain.iter_mut().for_each(|gain| *gain = six_digits_up(*gain));
             closed_loop.fixed = Some(Fixed {
                 rho: load.gain.clone(),
                 position_error: envelope.position_error.clone(),

@@ -31,8 +31,14 @@ impl Graph {
                 Node::Sub(a, b) => (all[a].0 - all[b].0, all[a].1 - all[b].1),
                 Node::Mul(a, b) => (all[a].0 * all[b].0, all[a].1 * all[b].0 + all[a].0 * all[b].1),
                 Node::Neg(a) => (-all[a].0, -all[a].1),
-                // No torque of a model bends: these belong to laws.
-                Node::Abs(a) | Node::Clamp(a, ..) | Node::Select(a, ..) => (all[a].0, f64::NAN),
+                Node::Abs(a) if all[a].0 < 0.0 => (-all[a].0, -all[a].1),
+                Node::Abs(a) => all[a],
+                Node::Clamp(a, _, high) if all[a].0 > all[high].0 => all[high],
+                Node::Clamp(a, low, _) if all[a].0 < all[low].0 => all[low],
+                Node::Clamp(a, ..) => all[a],
+                Node::Select(a, above, ..) if all[a].0 > 0.0 => all[above],
+                Node::Select(a, _, below, _) if all[a].0 < 0.0 => all[below],
+                Node::Select(_, _, _, otherwise) => all[otherwise],
             };
             all.push(pair);
         }

@@ -145,16 +145,9 @@ fn with_gain(
         regression: proved.regression.as_ref(),
         seek_tube: means.effort.seek_tube,
         torque_error: &|rates| error.met(&proved.certificates, &proved.bounds, rates).error,
-        declared: proved.torque.as_ref(),
         progress: means.progress,
     };
     let design = design(&problem, constant)?;
-    let mut faults = Diagnostics::of(&checked.loaded.path);
-    if !design.is_finite() {
-        let problem = "gives gains or bounds on the errors that overflow";
-        faults.push("control", problem, "write gains and initial errors in SI units");
-    }
-    faults.finish(())?;
     let viscous = viscous(checked);
     let step = design.step(&StepModel {
         code: &proved.model.code,
@@ -162,5 +155,10 @@ fn with_gain(
         bounds: &proved.bounds,
         viscous: &viscous,
     });
-    Ok((design, step))
+    let mut faults = Diagnostics::of(&checked.loaded.path);
+    if !(design.is_finite() && step.code.is_finite()) {
+        let problem = "gives gains or bounds on the errors that overflow";
+        faults.push("control", problem, "write gains, boundary layer and initial errors in SI units");
+    }
+    faults.finish((design, step))
 }

@@ -104,7 +104,6 @@ impl Example {
                 regression: None,
                 seek_tube: false,
                 torque_error: &|rates| bounds.torque(rates),
-                declared: None,
                 progress: &crate::progress::Silent,
             },
             false,

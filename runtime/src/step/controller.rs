@@ -57,7 +57,6 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
         qd: &[S::Scalar; N],
         desired: &Desired<S::Scalar, N>,
     ) -> Result<Command<S::Scalar, N>, Fault<S::Scalar, N>> {
-        // Two conditions in one `if let` need a newer Rust than this crate asks for.
         let StepTorque { asked, limited, unread, theta } = S::step(q, qd, desired, &self.theta);
         // 0 times a finite number is 0, so one comparison does for all.
         let zero = S::Scalar::ZERO;

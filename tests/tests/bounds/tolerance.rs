@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use gramforge::Generation;
 use gramforge::internals::bounds::{Effort, Rates};
 use gramforge::internals::choose::why_exact;
+use gramforge::internals::control::RobustGain;
 use gramforge::internals::dynamics::inverse_dynamics;
 use gramforge::internals::lagrangian::expand;
 use gramforge::internals::numerics::low_discrepancy::{LowDiscrepancy, in_box};
@@ -19,7 +20,7 @@ use gramforge::internals::reduction::{Dictionary, products};
 use gramforge::load::{Loaded, load};
 use gramforge::spec::{DictionarySpec, MeasureSpec, ModelSpec};
 
-use attack::search;
+use attack::{search, search_within};
 
 fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(name).with_extension("json")
@@ -158,6 +159,24 @@ fn without_a_model_the_tolerance_is_one_per_cent() {
     let stated = within(&workspace(), 0.01);
     assert_eq!(auto.reduced(), stated.reduced());
     assert_eq!(auto.code(), stated.code());
+}
+
+/// A constant gain outweighs the model's error, friction apart, at every state inside the envelope.
+#[test]
+fn a_constant_gain_is_never_exceeded() {
+    let constant = |v: &mut serde_json::Value| v["control"]["robust_gain"] = "constant".into();
+    for name in ["puma560_one_percent", "step_constant", "arm3_robust"] {
+        let made = gramforge_tests::edited(name, constant).unwrap_or_else(|message| panic!("{message}"));
+        let design = made.design().unwrap();
+        let RobustGain::Constant(gain) = &design.robust_gain else { panic!("{name}: a constant gain") };
+        // Where no level of V holds the errors, the gain is for those at the start.
+        let Some(rates) = design.rates.clone() else { panic!("{name}: a level of V") };
+        let friction = |i: usize| made.bounds().b[i] * rates.speed[i] + design.disturbance[i];
+        let limit: Vec<f64> = gain.iter().enumerate().map(|(i, gain)| gain - friction(i)).collect();
+        let found = search_within(&made, rates, limit, 2_000);
+        println!("{name}: the error found is at most {found:.4} of the gain");
+        assert!(found > 0.5, "a gain that is far too large is not looked at closely");
+    }
 }
 
 /// Whole steps: never dearer than the exact one, never dearer for a larger tolerance, and reduced only where it pays.

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use gramforge::Generation;
 use gramforge_generated::{
     arm3_adaptive, arm3_adaptive_guaranteed, arm3_exact, arm3_robust, arm3_xi1, arm3_xi2, arm3_xi3,
-    puma560_exact, puma560_xi6, puma560_xi12,
+    puma560_exact, puma560_one_percent, puma560_xi6, puma560_xi12,
 };
 use gramforge_runtime::law::{Law, Sample};
 use gramforge_runtime::reference::Reference;
@@ -31,7 +31,7 @@ macro_rules! each {
 macro_rules! all {
     ($check:ident, $states:expr) => {
         each!($check $states; arm3_exact Arm3Exact, arm3_xi1 Arm3Xi1, arm3_xi2 Arm3Xi2, arm3_xi3 Arm3Xi3, arm3_robust Arm3Robust,
-            puma560_exact Puma560Exact, puma560_xi6 Puma560Xi6, puma560_xi12 Puma560Xi12, arm3_adaptive Arm3Adaptive,
+            puma560_exact Puma560Exact, puma560_one_percent Puma560OnePercent, puma560_xi6 Puma560Xi6, puma560_xi12 Puma560Xi12, arm3_adaptive Arm3Adaptive,
             arm3_adaptive_guaranteed Arm3AdaptiveGuaranteed, panda Panda, ur5 Ur5, stanford Stanford, arm3_csv Arm3Csv,
             arm3_polynomial Arm3Polynomial, arm3_table Arm3Table, puma3_union Puma3Union,
             step_tight StepTight, step_switching StepSwitching, step_constant StepConstant, step_exact StepExact);
@@ -235,6 +235,38 @@ fn a_controller_can_be_a_static_and_is_small() {
     assert!(controller.step(&at.q, &at.qd, &at).is_ok());
     assert_eq!(size_of_val(&READY), (2 * 6 + 1) * 8);
     assert_eq!(size_of_val(&arm3_adaptive::controller()), (2 * 3 + 1 + 1) * 8);
+}
+
+/// What a module says of its step is what stands in it.
+#[test]
+fn published_counts_are_those_of_the_text() {
+    for (name, counts) in [
+        ("arm3_xi2", [arm3_xi2::STEP_MULTIPLICATIONS, arm3_xi2::STEP_ADDITIONS, arm3_xi2::STEP_CLAMPS]),
+        (
+            "puma560_exact",
+            [puma560_exact::STEP_MULTIPLICATIONS, puma560_exact::STEP_ADDITIONS, puma560_exact::STEP_CLAMPS],
+        ),
+        (
+            "puma560_one_percent",
+            [
+                puma560_one_percent::STEP_MULTIPLICATIONS,
+                puma560_one_percent::STEP_ADDITIONS,
+                puma560_one_percent::STEP_CLAMPS,
+            ],
+        ),
+    ] {
+        let text = generation(name).module().unwrap();
+        let step = text.split("fn step(").nth(1).expect("a step").split("\n    }\n").next().expect("its end");
+        let step = step.split_whitespace().collect::<Vec<_>>().join(" ");
+        let count = |word: &str| step.matches(word).count();
+        // A constant with a sign is none; what is negated has a letter or a bracket behind it.
+        let negated = step.match_indices('-').filter(|(at, _)| {
+            step[at + 1..].starts_with(|c: char| c.is_ascii_alphabetic() || c == '(')
+                && !step[..*at].ends_with(|c: char| c.is_ascii_alphanumeric())
+        });
+        let additions = count(" + ") + count(" - ") + count(".abs()") + negated.count();
+        assert_eq!([count(" * "), additions, count("clamp(") + count("select(")], counts, "{name}");
+    }
 }
 
 /// The statements of a module's step: name and right side.

@@ -122,7 +122,10 @@ fn robust<const N: usize>(
 }
 
 fn arm3(law: &str) -> Generation {
-    let generation = edited("arm3_adaptive_guaranteed", |v| v["control"]["law"] = json!(law));
+    let generation = edited("arm3_adaptive_guaranteed", |v| {
+        v["control"]["law"] = json!(law);
+        v["control"]["robust_gain"] = json!("state");
+    });
     generation.unwrap_or_else(|message| panic!("{message}"))
 }
 
@@ -215,6 +218,7 @@ fn v_falls_on_pumas_with_payloads() {
         v["arm"]["payload"] = json!({ "mass": 1.0, "com": [0.0, 0.0, 0.1] });
         v["control"]["uncertainty"] = json!({ "payload": { "mass": [0.5, 1.5] }, "viscous_friction": [[5.0, 6.5], null, null, null, null, null] });
         v["control"]["allow_long_period"] = json!(true);
+        v["control"]["robust_gain"] = json!("state");
     });
     robust(&puma.unwrap_or_else(|message| panic!("{message}")), &puma560_xi6::REFERENCE, 0.02, 200, 0.5);
 }

@@ -56,6 +56,7 @@ pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
     }
     if let Some(control) = &view.control {
         lines.push(gains(control));
+        lines.push(robust_gain(control));
         lines.push(format!("control: k* = {}, V_max(0) = {} J", short(control.k_star), short(control.v_max)));
         lines.push(format!(
             "largest errors: position ({}), velocity ({})",
@@ -83,6 +84,11 @@ fn gains(control: &ControlView) -> String {
         show(&control.Omega),
         control.period
     )
+}
+
+fn robust_gain(control: &ControlView) -> String {
+    let constant = |gain| format!("constant, ({})", list(gain));
+    format!("robust gain: {}", control.robust_gain.map_or("the law's own".to_string(), constant))
 }
 
 fn list(x: &[f64]) -> String {

@@ -5,7 +5,7 @@ use super::{
     RangeView, RatesView, StepCosts,
 };
 use crate::bounds::{Bounds, Effort, Rates, estimate, factor_bounds, worst_ratio};
-use crate::control::{Envelope, StepGraph};
+use crate::control::{Envelope, RobustGain, StepGraph};
 use crate::domain::Domain;
 use crate::emit::functions;
 use crate::pipeline::Generation;
@@ -25,6 +25,10 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
             Pqq: as_written(&design.gains.pqq),
             Omega: as_written(&design.omega),
             boundary_layer: design.boundary_layer.as_deref(),
+            robust_gain: match &design.robust_gain {
+                RobustGain::Constant(gain) => Some(gain),
+                RobustGain::State => None,
+            },
             period: design.period,
             k_star: design.k_star,
             v_max: *v_max,

@@ -5,8 +5,6 @@
 
 mod bracket;
 mod learning;
-#[cfg(test)]
-mod tests;
 
 use super::{Adaptation, Gains};
 use crate::bounds::Bounds;

@@ -12,6 +12,8 @@ use gramforge::internals::torque::recursive;
 struct Arena<'a> {
     generation: &'a Generation,
     rates: Rates,
+    /// What no error may exceed, by joint, N·m or N.
+    limit: Vec<f64>,
     /// The exact code, of uncertain arms at every vertex of what is uncertain.
     exact: Vec<Graph>,
     /// What is left of the coefficients that are simplified, with their bounds.
@@ -26,11 +28,7 @@ struct State {
 }
 
 impl Arena<'_> {
-    fn new(generation: &Generation) -> Arena<'_> {
-        let rates = match (generation.domain(), &generation.motion()) {
-            (Domain::Workspace(_), _) | (_, None) => Rates::limits(generation.arm()).unwrap(),
-            (_, Some(motion)) => Rates::of(motion),
-        };
+    fn new(generation: &Generation, rates: Rates, limit: Vec<f64>) -> Arena<'_> {
         let (arm, uncertainty, exact_code) =
             (generation.arm(), generation.uncertainty(), generation.exact_code());
         let vertices = uncertainty.vertices().map(|u| recursive(&uncertainty.at(arm, &u)));
@@ -41,7 +39,7 @@ impl Arena<'_> {
         };
         let left =
             (0..generation.certificates().len()).filter(|&m| generation.reduced().simplified[m]).map(left);
-        Arena { generation, rates, exact, left: left.collect() }
+        Arena { generation, rates, limit, exact, left: left.collect() }
     }
 
     fn position(&self, unit: &[f64]) -> Vec<f64> {
@@ -78,9 +76,9 @@ impl Arena<'_> {
         let torque = self.generation.torque().unwrap();
         let part = |i: usize| {
             let error = exact.iter().map(|exact| (model[i] - exact[i]).abs()).fold(0.0, f64::max);
-            let rounding = 1e-11 * torque.peak[i];
-            assert!(error <= torque.error[i] + rounding, "joint {}: {error} > {}", i + 1, torque.error[i]);
-            if torque.error[i] > 0.0 { error / torque.error[i] } else { 0.0 }
+            let (limit, rounding) = (self.limit[i], 1e-11 * torque.peak[i]);
+            assert!(error <= limit + rounding, "joint {}: {error} > {limit}", i + 1);
+            if limit > 0.0 { error / limit } else { 0.0 }
         };
         (0..n).map(part).collect()
     }
@@ -115,7 +113,17 @@ impl Arena<'_> {
 /// The emitted code against the exact code at states of the domain, sides among them, rates in corners of their box, and
 /// climbs from the worst of them for each joint. Largest error found as a part of what is certified.
 pub fn search(generation: &Generation, states: usize) -> f64 {
-    let arena = Arena::new(generation);
+    let rates = match (generation.domain(), &generation.motion()) {
+        (Domain::Workspace(_), _) | (_, None) => Rates::limits(generation.arm()).unwrap(),
+        (_, Some(motion)) => Rates::of(motion),
+    };
+    let limit = generation.torque().unwrap().error.clone();
+    search_within(generation, rates, limit, states)
+}
+
+/// The same for rates up to `rates`, against `limit` by joint, N·m or N.
+pub fn search_within(generation: &Generation, rates: Rates, limit: Vec<f64>, states: usize) -> f64 {
+    let arena = Arena::new(generation, rates, limit);
     let n = generation.arm().dof();
     let spread = LowDiscrepancy::new(n + 1);
     let state = |index: usize| {

@@ -84,7 +84,7 @@ const CASES: &[Case] = &[
             i.control("boundary_layer", json!(0.0));
         },
         "control.boundary_layer",
-        &["is 0", "above 1e-100, or leave the field out"],
+        &["is 0", "above 0, or leave the field out"],
     ),
     case(
         "boundary layer of two joints",

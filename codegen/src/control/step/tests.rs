@@ -1,1 +1,0 @@
-//! The step against the runtime's laws.
