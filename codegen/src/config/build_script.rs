@@ -49,8 +49,8 @@ fn slow(taken: Duration, level: &str, out: &mut impl Write) -> io::Result<()> {
     }
     let seconds = taken.as_secs();
     let advice = format!(
-        "Gramforge took {seconds} s, compiled with opt-level {level}; write `opt-level = 3` in `[profile.dev.build-override]` and \
-         `[profile.release.build-override]` of Cargo.toml, and it takes less than a tenth"
+        "Gramforge took {seconds} s, compiled with opt-level {level}; write `opt-level = 3` in `[profile.dev.package.gramforge]` and \
+         `[profile.release.package.gramforge]` of Cargo.toml, and it takes less than a tenth"
     );
     directive(out, "cargo:warning=", &advice)
 }
@@ -123,7 +123,7 @@ mod tests {
             warning.starts_with("cargo:warning=Gramforge took 54 s, compiled with opt-level 0; "),
             "{warning}"
         );
-        assert!(warning.contains("`[profile.dev.build-override]`") && warning.contains("`opt-level = 3`"));
+        assert!(warning.contains("`[profile.dev.package.gramforge]`") && warning.contains("`opt-level = 3`"));
         assert_eq!(warning.lines().count(), 1);
         assert!(!told(5.001, "0").is_empty());
         for (taken, level) in [(5.0, "0"), (0.0, "0"), (54.2, "1"), (54.2, "3"), (54.2, "s")] {
