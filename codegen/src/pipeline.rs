@@ -9,6 +9,7 @@ mod modelled;
 mod proved;
 mod sampled;
 mod setting;
+mod step_rounding;
 mod threads;
 mod verdict;
 

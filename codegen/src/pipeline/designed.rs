@@ -2,8 +2,9 @@
 
 use super::Means;
 use super::certified::Certified;
+use super::step_rounding::rounded_design;
 use crate::check::{Checked, Control, GainSource, Tuning};
-use crate::control::{Design, DesignProblem, StepGraph, StepModel, design};
+use crate::control::{Design, DesignProblem, SingleRounding, StepGraph, StepModel, StepRounding, design};
 use crate::error::{Diagnostics, Error};
 use crate::spec::RobustGainSpec;
 
@@ -18,6 +19,8 @@ pub(super) struct Designed {
     pub design: Option<Design>,
     /// The controller's step: law and model as one graph.
     pub step: Option<StepGraph>,
+    /// What that step rounds by.
+    pub rounding: Option<StepRounding>,
     /// The step of the same law about the exact model; `None` without a controller, or for a law that learns.
     pub exact_step: Option<StepGraph>,
     /// What a step with the cheapest reduced model would have saved, where that was too little.
@@ -45,11 +48,11 @@ impl Designed {
     /// [`Error::Input`] where the gains overflow, no gains do what is asked for, or a required guarantee does not hold.
     pub fn new(certified: Certified, means: Means) -> Result<Self, Error> {
         let Some(control) = &certified.checked.control else {
-            return Ok(Self { certified, design: None, step: None, exact_step: None, not_worth: None });
+            return Ok(Self::without_controller(certified));
         };
-        let state = || with_gain(&certified, control, means, false);
-        let constant = || with_gain(&certified, control, means, true);
-        let (design, step) = match control.robust_gain {
+        let state = || rounded_design(&certified, control, means, false);
+        let constant = || rounded_design(&certified, control, means, true);
+        let (design, step, rounding) = match control.robust_gain {
             RobustGainSpec::State => state()?,
             RobustGainSpec::Constant => constant()?,
             // Where nothing is left out, there is no bracket to replace.
@@ -58,7 +61,7 @@ impl Designed {
                 // Gains that were searched for are judged again, not searched for again.
                 Ok(own) => {
                     let same = Control { gains: GainSource::Given(tuning(&own.0)), ..control.clone() };
-                    match with_gain(&certified, &same, means, true) {
+                    match rounded_design(&certified, &same, means, true) {
                         Ok(other) => cheaper(own, other),
                         Err(_) => own,
                     }
@@ -73,7 +76,18 @@ impl Designed {
                 true => step.clone(),
                 false => design.exact_step(&certified.proved.exact, &viscous(&certified.checked)),
             });
-        Ok(Self { certified, design: Some(design), step: Some(step), exact_step, not_worth: None })
+        Ok(Self {
+            certified,
+            design: Some(design),
+            step: Some(step),
+            rounding: Some(rounding),
+            exact_step,
+            not_worth: None,
+        })
+    }
+
+    fn without_controller(certified: Certified) -> Self {
+        Self { certified, design: None, step: None, rounding: None, exact_step: None, not_worth: None }
     }
 
     /// Whether the step of the exact model is known only once its controller is designed: it has bounds of its own.
@@ -100,7 +114,7 @@ impl Designed {
 }
 
 /// The numbers of a design, as a specification gives them.
-fn tuning(design: &Design) -> Tuning {
+pub(super) fn tuning(design: &Design) -> Tuning {
     Tuning {
         period: design.period,
         w: design.w.clone(),
@@ -110,9 +124,12 @@ fn tuning(design: &Design) -> Tuning {
     }
 }
 
+/// A controller, its step, and what that rounds by.
+type Judged = (Design, StepGraph, StepRounding);
+
 /// The one with fewer operations of those whose guarantee holds, or of both where neither does; the first where they tie.
-fn cheaper(first: (Design, StepGraph), second: (Design, StepGraph)) -> (Design, StepGraph) {
-    let rank = |(design, step): &(Design, StepGraph)| (!design.guarantee.holds, step.operations().cost());
+fn cheaper(first: Judged, second: Judged) -> Judged {
+    let rank = |(design, step, _): &Judged| (!design.guarantee.holds, step.operations().cost());
     if rank(&second) < rank(&first) { second } else { first }
 }
 
@@ -120,12 +137,13 @@ fn viscous(checked: &Checked) -> Vec<f64> {
     checked.built.arm.joints.iter().map(|joint| joint.viscous_friction).collect()
 }
 
-/// The controller whose ρ is constant, or the law's own bracket.
-fn with_gain(
+/// The controller whose ρ is constant, or the law's own bracket; `single` is what its step in f32 may round by.
+pub(super) fn design_with(
     certified: &Certified,
     control: &Control,
     means: Means,
     constant: bool,
+    single: Option<&SingleRounding>,
 ) -> Result<(Design, StepGraph), Error> {
     let (checked, proved) = (&certified.checked, &certified.proved);
     let error = certified.error();
@@ -139,12 +157,13 @@ fn with_gain(
         lagrangian: &proved.lagrangian,
         bounds: &proved.bounds,
         rounding: &rounding,
+        single,
         domain: &checked.domain,
         motion: checked.motion.as_deref(),
         uncertainty: &checked.built.uncertainty,
         regression: proved.regression.as_ref(),
         seek_tube: means.effort.seek_tube,
-        torque_error: &|rates| error.met(&proved.certificates, &proved.bounds, rates).error,
+        torque_error: &|rates| error.torque_error(&proved.certificates, &proved.bounds, rates),
         progress: means.progress,
     };
     let design = design(&problem, constant)?;

@@ -36,7 +36,7 @@ use crate::graph::Graph;
 use crate::motion::Motion;
 use crate::number::scientific;
 use crate::pipeline::Generation;
-use crate::spec::{LawSpec, OnFaultSpec, SimulationSpec};
+use crate::spec::{LawSpec, OnFaultSpec, ScalarSpec, SimulationSpec};
 use crate::torque::Regressor;
 
 /// Runge–Kutta steps a control period, where the specification names none.
@@ -72,6 +72,8 @@ pub struct Scenario<'a> {
     pub initial: &'a InitialError,
     /// Duration and substeps.
     pub simulation: &'a SimulationSpec,
+    /// Number type of the controller.
+    pub scalar: ScalarSpec,
 }
 
 impl<'a> Scenario<'a> {
@@ -98,6 +100,7 @@ impl<'a> Scenario<'a> {
             regressor: generation.regressor(),
             initial: &control?.initial_error,
             simulation: &generation.spec().simulation,
+            scalar: generation.spec().emit.scalar,
         })
     }
 }
@@ -161,7 +164,7 @@ fn compare<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Compariso
         let problem = format!("are {learnt}; a simulation bears {MOST_LEARNT}");
         return Err(Error::input(file, "control.adaptation.parameters", problem, help));
     }
-    let law = StepLaw::new(&step, adaptation.map_or(&[], |adaptation| &adaptation.initial));
+    let law = StepLaw::new(&step, adaptation.map_or(&[], |adaptation| &adaptation.initial), scenario.scalar);
     let (exact, law) = rayon::join(|| rig.run(own, plain, 0), || rig.run(model, law, learnt));
     let refuse = |error: ConfigError| {
         let help = "correct the number of the control or simulation section that it comes from";

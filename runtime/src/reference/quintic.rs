@@ -49,6 +49,12 @@ pub fn quintic<T: Real>(from: T, to: T, duration: T, t: T) -> (T, T, T) {
     Shape::at(duration, t).between(from, to)
 }
 
+/// Position, velocity and acceleration of a motion from 0 to 1 at x = t/duration within (0, 1); `rate` is 1/duration, 1/s.
+pub fn quintic_shape<T: Real>(x: T, rate: T) -> (T, T, T) {
+    let Shape { position, velocity, acceleration, .. } = Shape::within(x, rate);
+    (position, velocity, acceleration)
+}
+
 /// The motion from 0 to 1.
 struct Shape<T> {
     position: T,
@@ -67,10 +73,15 @@ impl<T: Real> Shape<T> {
         if t >= duration {
             return still(T::ONE, true);
         }
-        let c = T::from_f64;
         // A constant where the duration is one: no division is left.
         let rate = T::ONE / duration;
-        let x = t * rate;
+        Self::within(t * rate, rate)
+    }
+
+    /// At x = t/duration within (0, 1); `rate` is 1/duration.
+    #[inline]
+    fn within(x: T, rate: T) -> Self {
+        let c = T::from_f64;
         // The factored forms vanish exactly at x = 1 as well as at 0.
         let rest = T::ONE - x;
         Self {
