@@ -50,7 +50,8 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
     /// When a measured or desired number or the computed torque is infinite or NaN. The [`Fault`] carries the safe
     /// command that must be applied instead; the controller goes on with the next good measurement. How many faults in
     /// a row are too many is for the caller to say.
-    #[inline]
+    // A firmware has one such call. Inside its loop nothing is copied, and what the loop does not read is not computed.
+    #[inline(always)]
     pub fn step(
         &mut self,
         q: &[S::Scalar; N],
@@ -60,7 +61,13 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
         let StepTorque { asked, limited, unread, theta } = S::step(q, qd, desired, &self.theta);
         // 0 times a finite number is 0, so one comparison does for all.
         let zero = S::Scalar::ZERO;
-        if asked.iter().fold(unread * zero, |sum, &x| sum + x * zero) != zero {
+        let mut sum = unread * zero;
+        let mut saturated = [false; N];
+        for i in 0..N {
+            sum += asked[i] * zero;
+            saturated[i] = limited[i] != asked[i];
+        }
+        if sum != zero {
             return Err(self.fault_of(q, qd, desired, &asked));
         }
         for (learnt, next) in self.theta.iter_mut().zip(theta) {
@@ -73,7 +80,7 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
         if S::SETTINGS.on_fault == OnFault::Gravity {
             (self.last_position, self.positioned) = (*q, true);
         }
-        Ok(Command { torque: limited, saturated: core::array::from_fn(|i| limited[i] != asked[i]) })
+        Ok(Command { torque: limited, saturated })
     }
 
     /// The command of the fault policy as things stand, N·m: finite and within the limits.
