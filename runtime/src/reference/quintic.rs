@@ -25,17 +25,17 @@ impl<T: Real, const N: usize> Reference<T, N> for QuinticReference<T, N> {
     fn at(&self, t: T) -> Desired<T, N> {
         // What the joints share is computed once.
         let shape = Shape::at(self.duration, t);
-        let mut desired = Desired::at_rest(self.to);
+        let (mut q, mut qd, mut qdd) = (self.to, self.to, self.to);
         // One loop: a compiler that is asked for small code keeps every loop that is written.
         for i in 0..N {
             let span = self.to[i] - self.from[i];
             if !shape.arrived {
-                desired.q[i] = self.from[i] + span * shape.position;
+                q[i] = self.from[i] + span * shape.position;
             }
-            desired.qd[i] = span * shape.velocity;
-            desired.qdd[i] = span * shape.acceleration;
+            qd[i] = span * shape.velocity;
+            qdd[i] = span * shape.acceleration;
         }
-        desired
+        Desired { q, qd, qdd }
     }
 
     fn check(&self) -> Result<(), ConfigError> {
