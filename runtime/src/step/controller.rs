@@ -1,6 +1,6 @@
 //! The loop about a step that is written out.
 
-use super::{ControlStep, StepTorque};
+use super::ControlStep;
 use crate::reference::Desired;
 use crate::vector::first_not_finite;
 use crate::{Command, Fault, OnFault, Quantity, Real, TorqueController};
@@ -58,29 +58,29 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
         qd: &[S::Scalar; N],
         desired: &Desired<S::Scalar, N>,
     ) -> Result<Command<S::Scalar, N>, Fault<S::Scalar, N>> {
-        let StepTorque { asked, limited, unread, theta } = S::step(q, qd, desired, &self.theta);
+        let torque = S::step(q, qd, desired, &self.theta);
         // 0 times a finite number is 0, so one comparison does for all.
         let zero = S::Scalar::ZERO;
-        let mut sum = unread * zero;
+        let mut sum = torque.unread * zero;
         let mut saturated = [false; N];
         for i in 0..N {
-            sum += asked[i] * zero;
-            saturated[i] = limited[i] != asked[i];
+            sum += torque.asked[i] * zero;
+            saturated[i] = torque.limited[i] != torque.asked[i];
         }
         if sum != zero {
-            return Err(self.fault_of(q, qd, desired, &asked));
+            return Err(self.fault_of(q, qd, desired, &torque.asked));
         }
-        for (learnt, next) in self.theta.iter_mut().zip(theta) {
+        for k in 0..P {
             // NaN is not taken.
-            if next.is_finite() {
-                *learnt = next;
+            if torque.theta[k].is_finite() {
+                self.theta[k] = torque.theta[k];
             }
         }
-        self.last_command = limited;
+        self.last_command = torque.limited;
         if S::SETTINGS.on_fault == OnFault::Gravity {
             (self.last_position, self.positioned) = (*q, true);
         }
-        Ok(Command { torque: limited, saturated })
+        Ok(Command { torque: torque.limited, saturated })
     }
 
     /// The command of the fault policy as things stand, N·m: finite and within the limits.
