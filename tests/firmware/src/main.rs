@@ -4,7 +4,7 @@
 use firmware::bench::{Bench, Trouble};
 use firmware::control_loop::run;
 use firmware::modules::{Case, arm3_exact, arm3_robust, measure_all, puma560_exact, puma560_one_percent};
-use firmware::print::line;
+use firmware::print::{grouped, line};
 use gramforge_runtime::simulate::{JointState, RigidPlant, Simulation};
 use gramforge_runtime::{ControlStep, Model, StepController};
 
@@ -47,11 +47,7 @@ fn whole<S, M, const N: usize, const P: usize>(
     let mut board = Bench::new(simulation, (seconds / period + 0.5) as u32, trouble);
     let mut controller = StepController::<S, N, P>::new();
     let outcome = run(&mut controller, &case.reference, &mut board);
-    let say = |what: &str, value: u64| {
-        firmware::board::print(key);
-        firmware::board::print("_");
-        firmware::print::line(what, case.name, value);
-    };
+    let say = |what: &str, value: u64| grouped(case.name, key, what, value);
     say("torques", board.hash.value());
     say("steps", outcome.steps.into());
     say("missed", outcome.missed.into());

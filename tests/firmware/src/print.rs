@@ -4,10 +4,18 @@ use crate::board;
 
 /// Prints `MODULE KEY VALUE`, the value in hexadecimal.
 pub fn line(module: &str, key: &str, value: u64) {
-    board::print(module);
-    board::print(" ");
-    board::print(key);
-    board::print(" ");
+    parts(&[module, " ", key, " "], value);
+}
+
+/// Prints `MODULE GROUP_KEY VALUE`.
+pub fn grouped(module: &str, group: &str, key: &str, value: u64) {
+    parts(&[module, " ", group, "_", key, " "], value);
+}
+
+fn parts(texts: &[&str], value: u64) {
+    for text in texts {
+        board::print(text);
+    }
     for nibble in (0..16).rev() {
         board::print(digit((value >> (4 * nibble)) as u8 & 15));
     }
