@@ -3,6 +3,7 @@
 
 use firmware::bench::{Bench, Trouble};
 use firmware::control_loop::run;
+use firmware::measure::sines;
 use firmware::modules::{Case, arm3_exact, arm3_robust, measure_all, puma560_exact, puma560_one_percent};
 use firmware::print::{grouped, line};
 use gramforge_runtime::simulate::{JointState, RigidPlant, Simulation};
@@ -12,6 +13,7 @@ use gramforge_runtime::{ControlStep, Model, StepController};
 const SECONDS: f32 = 5.0;
 
 fn program() {
+    sines();
     measure_all();
     let blind = |first, many| Trouble { blind: [first, many], ..Trouble::default() };
     let missed = |first, many| Trouble { missed: [first, many], ..Trouble::default() };

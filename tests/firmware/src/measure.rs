@@ -2,6 +2,7 @@
 
 use core::hint::black_box;
 
+use gramforge_runtime::trig::{Polynomial, Trig};
 use gramforge_runtime::{ControlStep, Reference, StepController};
 
 use crate::board;
@@ -66,6 +67,34 @@ fn steps<S: ControlStep<N, P, Scalar = f32>, const N: usize, const P: usize>(cas
     line(case.name, "torques", hash.value());
     // Each of the four calls of a state must be without a fault.
     line(case.name, "steps_with_fault", u64::from(4 * STATES - good));
+}
+
+/// Measures one pair of sine and cosine.
+pub fn sines() {
+    #[inline(never)]
+    fn pair(x: f32) -> (f32, f32) {
+        Polynomial.sin_cos(x)
+    }
+    #[inline(never)]
+    fn nothing(x: f32) -> (f32, f32) {
+        (x, x)
+    }
+    let of = |f: fn(f32) -> (f32, f32), x: f32| {
+        board::instructions(&mut || {
+            black_box(black_box(f)(x));
+        })
+    };
+    let mut random = Random::new(3);
+    let (mut worst, mut hash) = (0, Hash::default());
+    for _ in 0..STATES {
+        let x = random.symmetric() * core::f32::consts::PI;
+        let pair: fn(f32) -> (f32, f32) = pair;
+        worst = of(pair, x).wrapping_sub(of(nothing, x)).max(worst);
+        let (sin, cos) = pair(x);
+        hash.vector(&[sin, cos]);
+    }
+    count("sines", "pair_worst", worst);
+    line("sines", "pairs", hash.value());
 }
 
 fn start<S: ControlStep<N, P, Scalar = f32>, const N: usize, const P: usize>(case: &Case<S, N, P>) {

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use crate::results::Results;
-use crate::toolchain::{cargo, output, prefix, scratch};
+use crate::toolchain::{cargo, firmware, output, prefix, qemu, scratch};
 
 /// The program on one core, at one level of optimisation.
 #[derive(Debug)]
@@ -38,7 +38,8 @@ const MODULES: [(&str, &str); 8] = [
     ("panda_exact", "panda"),
 ];
 
-const CORTEX: &str = "thumbv7em-none-eabihf";
+/// The Cortex-M4F.
+pub const CORTEX: &str = "thumbv7em-none-eabihf";
 const RISCV: &str = "riscv32imafc-unknown-none-elf";
 
 /// All builds; `None` without the toolchain.
@@ -54,8 +55,9 @@ pub fn builds() -> Option<&'static [Build]> {
 
 /// What the program prints on the host.
 pub fn host() -> &'static Results {
-    static HOST: LazyLock<Results> =
-        LazyLock::new(|| Results::parse(&output(cargo(&MADE).args(["run", "-q", "--locked", "--release"]))));
+    static HOST: LazyLock<Results> = LazyLock::new(|| {
+        Results::parse(&output(cargo(&firmware(), &MADE).args(["run", "-q", "--locked", "--release"])))
+    });
     &HOST
 }
 
@@ -74,7 +76,7 @@ pub fn step_alone(build: &Build, module: &str) -> PathBuf {
 }
 
 /// The folder of the modules.
-static MADE: LazyLock<PathBuf> = LazyLock::new(|| {
+pub static MADE: LazyLock<PathBuf> = LazyLock::new(|| {
     let folder = scratch().join("modules");
     std::fs::create_dir_all(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     MODULES.par_iter().for_each(|(name, from)| {
@@ -102,7 +104,7 @@ fn write(path: &Path, text: &str) {
 
 fn build(prefix: &Path, target: &str, profile: &str) -> Build {
     let rustc = prefix.join("bin/rustc");
-    output(cargo(&MADE).env("RUSTC", rustc).args([
+    output(cargo(&firmware(), &MADE).env("RUSTC", rustc).args([
         "build",
         "-q",
         "--locked",
@@ -113,16 +115,6 @@ fn build(prefix: &Path, target: &str, profile: &str) -> Build {
     ]));
     let image = scratch().join("target").join(target).join(profile).join("firmware");
     let cortex = target == CORTEX;
-    let mut qemu =
-        Command::new(prefix.join(if cortex { "bin/qemu-system-arm" } else { "bin/qemu-system-riscv32" }));
-    if cortex {
-        qemu.args(["-M", "mps2-an386", "-serial", "none", "-semihosting-config", "enable=on,target=native"]);
-    } else {
-        qemu.args(["-M", "virt", "-bios", "none", "-serial", "stdio"]);
-    }
-    // One instruction is 64 ns of virtual time, which does not wait for real time.
-    qemu.args(["-nographic", "-monitor", "none", "-icount", "shift=6,sleep=off,align=off", "-kernel"])
-        .arg(&image);
-    let results = Results::parse(&output(&mut qemu));
+    let results = Results::parse(&output(&mut qemu(prefix, cortex, &image)));
     Build { name: format!("{target} {profile}"), cortex, small: profile == "size", image, results }
 }

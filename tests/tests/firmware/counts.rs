@@ -48,6 +48,16 @@ fn a_step_takes_no_more_instructions_and_stack_than_stated() {
 }
 
 #[test]
+fn a_pair_of_sine_and_cosine_takes_few_instructions() {
+    let Some(builds) = builds() else { return };
+    for build in builds {
+        let worst = build.results.value("sines", "pair_worst");
+        let most = if build.cortex { 60 } else { 78 };
+        assert!(worst <= most, "{}: {worst} instructions", build.name);
+    }
+}
+
+#[test]
 fn a_controller_starts_at_once_and_is_small() {
     let Some(builds) = builds() else { return };
     for build in builds {

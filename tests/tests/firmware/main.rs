@@ -6,6 +6,7 @@
 mod built;
 mod counts;
 mod elf;
+mod examples;
 mod results;
 mod toolchain;
 
@@ -14,7 +15,7 @@ use std::collections::BTreeMap;
 use built::{Build, builds, host};
 
 /// What only the bare cores print.
-const COUNTS: [&str; 4] = ["instructions_worst", "instructions_mean", "stack", "start"];
+const COUNTS: [&str; 5] = ["instructions_worst", "instructions_mean", "stack", "start", "pair_worst"];
 
 #[test]
 fn every_number_is_the_hosts_bit_for_bit() {

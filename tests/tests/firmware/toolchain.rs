@@ -33,7 +33,7 @@ pub fn prefix() -> Option<PathBuf> {
     None
 }
 
-/// The folder of the program.
+/// The folder of the program, those of the examples among its parts.
 pub fn firmware() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("firmware")
 }
@@ -43,11 +43,11 @@ pub fn scratch() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("firmware")
 }
 
-/// Cargo in the program's folder, free of what the outer one was told.
-pub fn cargo(modules: &Path) -> Command {
+/// Cargo in a program's folder, free of what the outer one was told.
+pub fn cargo(folder: &Path, modules: &Path) -> Command {
     let mut cargo = Command::new(env!("CARGO"));
     cargo
-        .current_dir(firmware())
+        .current_dir(folder)
         .env("GRAMFORGE_MODULES", modules)
         .env("CARGO_TARGET_DIR", scratch().join("target"));
     for name in [
@@ -69,4 +69,19 @@ pub fn output(command: &mut Command) -> String {
     let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     assert!(output.status.success(), "{command:?}: {}\n{out}\n{err}", output.status);
     out.into_owned()
+}
+
+/// QEMU with an image on a Cortex-M4F or else on a RISC-V core. One instruction is 64 ns of virtual time, which does not
+/// wait for real time.
+pub fn qemu(prefix: &Path, cortex: bool, image: &Path) -> Command {
+    let mut qemu =
+        Command::new(prefix.join(if cortex { "bin/qemu-system-arm" } else { "bin/qemu-system-riscv32" }));
+    if cortex {
+        qemu.args(["-M", "mps2-an386", "-serial", "none", "-semihosting-config", "enable=on,target=native"]);
+    } else {
+        qemu.args(["-M", "virt", "-bios", "none", "-serial", "stdio"]);
+    }
+    qemu.args(["-nographic", "-monitor", "none", "-icount", "shift=6,sleep=off,align=off", "-kernel"])
+        .arg(image);
+    qemu
 }
