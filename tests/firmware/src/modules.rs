@@ -100,5 +100,6 @@ modules! {
     puma560_exact Puma560Exact, 6 joints, 0 learnt, off by 0.1;
     puma560_one_percent Puma560OnePercent, 6 joints, 0 learnt, off by 2.0;
     puma560_robust Puma560Robust, 6 joints, 0 learnt, off by 0.1;
+    puma560_adaptive Puma560Adaptive, 6 joints, 1 learnt, off by 0.1;
     panda_exact PandaExact, 7 joints, 0 learnt, off by 0.05;
 }

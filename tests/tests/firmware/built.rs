@@ -26,8 +26,8 @@ pub struct Build {
     pub results: Results,
 }
 
-/// Modules of the program, and the specifications that they come from: with another name, in f32.
-const MODULES: [(&str, &str); 8] = [
+/// Modules of the program, and the specifications that they come from: renamed, in f32, and changed as `MADE` says.
+const MODULES: [(&str, &str); 9] = [
     ("arm3_xi2", "arm3_xi2"),
     ("arm3_exact", "arm3_exact"),
     ("arm3_robust", "arm3_robust"),
@@ -35,6 +35,7 @@ const MODULES: [(&str, &str); 8] = [
     ("puma560_exact", "puma560_exact"),
     ("puma560_one_percent", "puma560_one_percent"),
     ("puma560_robust", "puma560_xi6"),
+    ("puma560_adaptive", "puma560_exact"),
     ("panda_exact", "panda"),
 ];
 
@@ -83,8 +84,15 @@ pub static MADE: LazyLock<PathBuf> = LazyLock::new(|| {
         let made = edited(from, |spec: &mut Value| {
             spec["name"] = json!(name);
             spec["emit"] = json!({ "scalar": "f32" });
-            if *from == "panda" {
-                spec["model"] = json!("exact");
+            match *name {
+                "panda_exact" => spec["model"] = json!("exact"),
+                "puma560_adaptive" => {
+                    spec["control"]["law"] = json!("adaptive");
+                    // A tool of up to 1 kg.
+                    let tool = json!({ "joint": "joint6", "mass": [0.09, 1.09] });
+                    spec["control"]["uncertainty"] = json!({ "links": [tool] });
+                }
+                _ => {}
             }
         });
         let module = made.and_then(|generation| generation.module().map_err(|error| error.to_string()));

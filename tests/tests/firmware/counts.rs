@@ -4,8 +4,8 @@ use crate::built::{Build, builds, step_alone};
 use crate::elf::Image;
 
 /// The most instructions of a whole step, reference included, on a Cortex-M4F at the highest optimisation; the most
-/// bytes of stack.
-const LIMITS: [(&str, u64, u64); 8] = [
+/// bytes of stack there. A RISC-V core may take three tenths more of both.
+const LIMITS: [(&str, u64, u64); 9] = [
     ("arm3_xi2", 450, 512),
     ("arm3_exact", 450, 512),
     ("arm3_robust", 500, 512),
@@ -13,6 +13,7 @@ const LIMITS: [(&str, u64, u64); 8] = [
     ("puma560_exact", 1150, 512),
     ("puma560_one_percent", 950, 512),
     ("puma560_robust", 2100, 768),
+    ("puma560_adaptive", 1400, 512),
     ("panda_exact", 1600, 768),
 ];
 
@@ -33,7 +34,8 @@ fn a_step_takes_no_more_instructions_and_stack_than_stated() {
             let mean = build.results.value(module, "instructions_mean");
             let (worst, used) = (worst(build, module), build.results.value(module, "stack"));
             println!("{module}, {}: worst {worst}, mean {mean} instructions; stack {used} bytes", build.name);
-            assert!(used <= stack, "{module}, {}: {used} bytes of stack", build.name);
+            let most = if build.cortex { stack } else { stack * 13 / 10 };
+            assert!(used <= most, "{module}, {}: {used} bytes of stack", build.name);
         }
         let cortex = worst(find(builds, true, false), module);
         assert!(cortex <= instructions, "{module}: {cortex} instructions on a Cortex-M4F");

@@ -22,7 +22,7 @@ fn every_number_is_the_hosts_bit_for_bit() {
     let Some(builds) = builds() else { return };
     let host = host();
     // The torques of 1000 states of each module, and of each step of the loops of 5 s.
-    assert_eq!(host.values("torques").len(), 8);
+    assert_eq!(host.values("torques").len(), 9);
     assert_eq!(host.values("loop_torques").len(), 2);
     for Build { name, results, .. } in builds {
         let same: BTreeMap<_, _> =
