@@ -1,7 +1,5 @@
 //! The quintic polynomial that starts and ends at rest.
 
-use core::array::from_fn;
-
 use super::{Desired, Reference, check_duration, check_finite};
 use crate::{ConfigError, Real};
 
@@ -23,16 +21,21 @@ impl<T: Real, const N: usize> Reference<T, N> for QuinticReference<T, N> {
         self.duration
     }
 
-    #[inline]
+    #[inline(always)]
     fn at(&self, t: T) -> Desired<T, N> {
         // What the joints share is computed once.
         let shape = Shape::at(self.duration, t);
-        let span = |i: usize| self.to[i] - self.from[i];
-        Desired {
-            q: if shape.arrived { self.to } else { from_fn(|i| self.from[i] + span(i) * shape.position) },
-            qd: from_fn(|i| span(i) * shape.velocity),
-            qdd: from_fn(|i| span(i) * shape.acceleration),
+        let (mut q, mut qd, mut qdd) = (self.to, self.to, self.to);
+        // One loop: a compiler that is asked for small code keeps every loop that is written.
+        for i in 0..N {
+            let span = self.to[i] - self.from[i];
+            if !shape.arrived {
+                q[i] = self.from[i] + span * shape.position;
+            }
+            qd[i] = span * shape.velocity;
+            qdd[i] = span * shape.acceleration;
         }
+        Desired { q, qd, qdd }
     }
 
     fn check(&self) -> Result<(), ConfigError> {
