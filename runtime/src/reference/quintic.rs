@@ -53,6 +53,7 @@ pub fn quintic<T: Real>(from: T, to: T, duration: T, t: T) -> (T, T, T) {
 }
 
 /// Position, velocity and acceleration of a motion from 0 to 1 at x = t/duration within (0, 1); `rate` is 1/duration, 1/s.
+#[inline]
 pub fn quintic_shape<T: Real>(x: T, rate: T) -> (T, T, T) {
     let Shape { position, velocity, acceleration, .. } = Shape::within(x, rate);
     (position, velocity, acceleration)

@@ -1,6 +1,6 @@
 //! The fixed-step loop, as a firmware has it.
 
-use gramforge_runtime::{ControlStep, Reference, StepController, TorqueController};
+use gramforge_runtime::{ControlStep, StepController, TickReference};
 
 /// What the loop needs of a board with `N` joints.
 pub trait Board<const N: usize> {
@@ -41,7 +41,7 @@ pub struct Outcome {
 /// Runs the loop until the board ends it or too much has gone wrong.
 pub fn run<S, const N: usize, const P: usize>(
     controller: &mut StepController<S, N, P>,
-    reference: &impl Reference<f32, N>,
+    reference: &impl TickReference<f32, N>,
     board: &mut impl Board<N>,
 ) -> Outcome
 where
@@ -50,12 +50,12 @@ where
     let mut outcome = Outcome::default();
     let (mut next, mut in_a_row) = (0, 0);
     while let Some(tick) = board.wait_for_tick() {
-        // The time comes from the tick: a missed one does not delay the motion, and no rounding adds up.
+        // The motion goes by the number of the tick: a missed one does not delay it, and no rounding adds up.
         let late = tick.wrapping_sub(next);
         next = tick.wrapping_add(1);
         outcome.missed += late;
         let (q, qd) = board.encoders();
-        let desired = reference.at(tick as f32 * controller.period());
+        let desired = reference.at(tick);
         match controller.step(&q, &qd, &desired) {
             Ok(command) => {
                 in_a_row = 0;

@@ -1,6 +1,6 @@
 //! Inputs that a step must refuse, and what it must then command.
 
-use gramforge_runtime::{ControlStep, Desired, Fault, OnFault, Quantity, Reference, StepController};
+use gramforge_runtime::{ControlStep, Desired, Fault, OnFault, Quantity, StepController, TickReference};
 
 use crate::modules::Case;
 use crate::print::line;
@@ -29,7 +29,7 @@ const INPUTS: [Quantity; 5] = [
 fn not_finite<S: ControlStep<N, P, Scalar = f32>, const N: usize, const P: usize>(
     case: &Case<S, N, P>,
 ) -> u32 {
-    let good = case.reference.at(0.5 * case.reference.duration);
+    let good = case.reference.at(case.reference.end / 2);
     let mut wrong = 0;
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for input in INPUTS {
@@ -87,16 +87,16 @@ fn within_limits<S: ControlStep<N, P, Scalar = f32>, const N: usize, const P: us
     })
 }
 
-/// Times before the motion and after it: it must stand at its start and at its end.
+/// Ticks at the start of the motion and after it: it must stand at its start and at its end.
 fn outside<S: ControlStep<N, P, Scalar = f32>, const N: usize, const P: usize>(case: &Case<S, N, P>) -> u32 {
     let mut wrong = 0;
-    for (time, rest) in [
-        (-1.0, case.reference.from),
-        (f32::NEG_INFINITY, case.reference.from),
-        (1.5 * case.reference.duration, case.reference.to),
-        (f32::INFINITY, case.reference.to),
+    for (tick, rest) in [
+        (0, case.reference.from),
+        (case.reference.end, case.reference.to),
+        (case.reference.end + 1, case.reference.to),
+        (u32::MAX, case.reference.to),
     ] {
-        let desired = case.reference.at(time);
+        let desired = case.reference.at(tick);
         let mut controller = StepController::<S, N, P>::new();
         let right = desired == Desired::at_rest(rest)
             && controller
@@ -104,9 +104,9 @@ fn outside<S: ControlStep<N, P, Scalar = f32>, const N: usize, const P: usize>(c
                 .is_ok_and(|command| within_limits::<S, N, P>(&command.torque));
         wrong += u32::from(!right);
     }
-    // A time that is NaN is a fault at the desired position.
+    // A desired position that is NaN is a fault.
     let mut controller = StepController::<S, N, P>::new();
-    let desired = case.reference.at(f32::NAN);
+    let desired = Desired::at_rest([f32::NAN; N]);
     let right = controller
         .step(&case.reference.from, &[0.0; N], &desired)
         .is_err_and(|fault| fault.quantity == Quantity::DesiredPosition && fault.joint == 0);
@@ -123,7 +123,7 @@ fn far<S: ControlStep<N, P, Scalar = f32>, const N: usize, const P: usize>(
     for far in [1e1, 1e2, 1e4, 1e8, 1e20, 1e38] {
         for _ in 0..20 {
             let mut controller = StepController::<S, N, P>::new();
-            let mut desired = case.reference.at(0.5 * case.reference.duration);
+            let mut desired = case.reference.at(case.reference.end / 2);
             for x in [&mut desired.q, &mut desired.qd, &mut desired.qdd] {
                 for x in x {
                     *x += far * random.symmetric();

@@ -3,7 +3,7 @@
 use core::hint::black_box;
 
 use gramforge_runtime::trig::{Polynomial, Trig};
-use gramforge_runtime::{ControlStep, Reference, StepController};
+use gramforge_runtime::{ControlStep, StepController, TickReference};
 
 use crate::board;
 use crate::hash::Hash;
@@ -37,11 +37,11 @@ fn idle<S: ControlStep<N, P, Scalar = f32>, const N: usize, const P: usize>(
 fn steps<S: ControlStep<N, P, Scalar = f32>, const N: usize, const P: usize>(case: &Case<S, N, P>) {
     let mut random = Random::new(1);
     let mut controller = StepController::<S, N, P>::new();
-    let last = (case.reference.duration / S::SETTINGS.period) as u32;
+    let last = case.reference.end;
     let (mut worst, mut total, mut deepest, mut hash, mut good) = (0, 0, 0, Hash::default(), 0);
     for _ in 0..STATES {
         let tick = random.below(last + 1);
-        let desired = case.reference.at(tick as f32 * S::SETTINGS.period);
+        let desired = case.reference.at(tick);
         let (q, qd) = random.about(&desired, case.error);
         let before = controller;
         let mut torque = [0.0; N];

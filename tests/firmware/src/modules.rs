@@ -1,7 +1,8 @@
 //! The generated modules, and of each what a timer interrupt calls.
 #![allow(unsafe_code, reason = "the names by which the linker finds each control step")]
 
-use gramforge_runtime::{ControlStep, QuinticReference, StepController};
+use gramforge_runtime::reference::QuinticTicks;
+use gramforge_runtime::{ControlStep, StepController};
 
 /// One whole step: evaluates the reference at a tick, takes the control step, gives the torque to drive with; whether
 /// there was no fault.
@@ -14,7 +15,7 @@ pub struct Case<S: ControlStep<N, P, Scalar = f32>, const N: usize, const P: usi
     /// Name of the module.
     pub name: &'static str,
     /// Its motion.
-    pub reference: QuinticReference<f32, N>,
+    pub reference: QuinticTicks<f32, N>,
     /// Its whole step.
     pub control: Control<S, N, P>,
     /// Puts a controller at its start.
@@ -44,7 +45,7 @@ macro_rules! modules {
 
         /// The whole steps, by the names of their modules.
         pub mod steps {
-            use gramforge_runtime::{Reference, StepController};
+            use gramforge_runtime::{StepController, TickReference};
 
             $(
                 /// As [`Control`](super::Control).
@@ -57,7 +58,7 @@ macro_rules! modules {
                     tick: u32,
                     torque: &mut [f32; $n],
                 ) -> bool {
-                    let desired = super::$name::REFERENCE.at(tick as f32 * super::$name::SETTINGS.period);
+                    let desired = super::$name::REFERENCE.at(tick);
                     match controller.step(q, qd, &desired) {
                         Ok(command) => {
                             *torque = command.torque;

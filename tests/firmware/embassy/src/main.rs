@@ -8,8 +8,8 @@ mod clock;
 use board::Arm;
 use embassy_executor::Spawner;
 use embassy_time::{Duration, Instant, Ticker};
-use gramforge_runtime::Reference;
-use puma560_one_percent::{REFERENCE, SETTINGS, controller};
+use gramforge_runtime::TickReference;
+use puma560_one_percent::{REFERENCE, controller};
 
 #[rustfmt::skip]
 mod puma560_one_percent {
@@ -38,7 +38,7 @@ async fn main(_spawner: Spawner) {
         ticker.next().await;
         // A ticker that is late ticks at once until it has caught up. The clock says which tick it is.
         let tick = start.elapsed().as_millis() as u32;
-        let desired = REFERENCE.at(tick as f32 * SETTINGS.period);
+        let desired = REFERENCE.at(tick);
         let (q, qd) = arm.encoders();
         let torque = match controller.step(&q, &qd, &desired) {
             Ok(command) => {

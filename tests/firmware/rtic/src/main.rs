@@ -20,10 +20,10 @@ fn panic(_: &core::panic::PanicInfo) -> ! {
 #[rtic::app(device = lm3s6965)]
 mod app {
     use cortex_m::peripheral::syst::SystClkSource;
-    use gramforge_runtime::{Reference, StepController};
+    use gramforge_runtime::{StepController, TickReference};
 
     use crate::board::{Arm, MILLISECOND};
-    use crate::puma560_one_percent::{Puma560OnePercent, REFERENCE, SETTINGS, controller};
+    use crate::puma560_one_percent::{Puma560OnePercent, REFERENCE, controller};
 
     #[shared]
     struct Shared {}
@@ -53,7 +53,7 @@ mod app {
     #[task(binds = SysTick, priority = 2, local = [controller, arm, tick, faults_in_a_row])]
     fn control(context: control::Context) {
         let control::LocalResources { controller, arm, tick, faults_in_a_row, .. } = context.local;
-        let desired = REFERENCE.at(*tick as f32 * SETTINGS.period);
+        let desired = REFERENCE.at(*tick);
         let (q, qd) = arm.encoders();
         let torque = match controller.step(&q, &qd, &desired) {
             Ok(command) => {
