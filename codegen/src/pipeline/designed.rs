@@ -2,6 +2,7 @@
 
 use super::Means;
 use super::certified::Certified;
+use super::replaced::{Replaced, Saving};
 use crate::check::{Checked, Control, GainSource, Tuning};
 use crate::control::{Design, DesignProblem, StepGraph, StepModel, design};
 use crate::error::{Diagnostics, Error};
@@ -20,24 +21,8 @@ pub(super) struct Designed {
     pub step: Option<StepGraph>,
     /// The step of the same law about the exact model; `None` without a controller, or for a law that learns.
     pub exact_step: Option<StepGraph>,
-    /// What a step with the cheapest reduced model would have saved, where that was too little.
-    pub not_worth: Option<Saving>,
-}
-
-/// Costs of two steps, by [`crate::graph::Operations::cost`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Saving {
-    /// With the reduced model.
-    pub reduced: usize,
-    /// With the exact one.
-    pub exact: usize,
-}
-
-impl Saving {
-    /// Whether a reduction pays: it saves a twentieth of the step at least.
-    pub fn pays(&self) -> bool {
-        20 * self.reduced <= 19 * self.exact
-    }
+    /// Why the model is exact though a reduced one was found; `None` where it is the one that was asked for.
+    pub replaced: Option<Replaced>,
 }
 
 impl Designed {
@@ -45,7 +30,7 @@ impl Designed {
     /// [`Error::Input`] where the gains overflow, no gains do what is asked for, or a required guarantee does not hold.
     pub fn new(certified: Certified, means: Means) -> Result<Self, Error> {
         let Some(control) = &certified.checked.control else {
-            return Ok(Self { certified, design: None, step: None, exact_step: None, not_worth: None });
+            return Ok(Self { certified, design: None, step: None, exact_step: None, replaced: None });
         };
         let state = || with_gain(&certified, control, means, false);
         let constant = || with_gain(&certified, control, means, true);
@@ -73,7 +58,7 @@ impl Designed {
                 true => step.clone(),
                 false => design.exact_step(&certified.proved.exact, &viscous(&certified.checked)),
             });
-        Ok(Self { certified, design: Some(design), step: Some(step), exact_step, not_worth: None })
+        Ok(Self { certified, design: Some(design), step: Some(step), exact_step, replaced: None })
     }
 
     /// Whether the step of the exact model is known only once its controller is designed: it has bounds of its own.
@@ -89,13 +74,6 @@ impl Designed {
         let [reduced, exact] =
             [&self.step, &self.exact_step].map(|step| step.as_ref().map(|step| step.operations().cost()));
         Some(Saving { reduced: reduced?, exact: exact? })
-    }
-
-    /// What it saves, where the specification leaves the choice of the model open and that is too little.
-    pub fn too_small(&self) -> Option<Saving> {
-        let open = self.certified.checked.loaded.spec.model.tolerance().is_some();
-        let reduced = !self.certified.proved.model.reduced.is_exact();
-        self.saving().filter(|saving| open && reduced && !saving.pays())
     }
 }
 
