@@ -3,9 +3,11 @@
 use super::Means;
 use super::certified::Certified;
 use super::replaced::{Replaced, Saving};
+use crate::bounds::Effort;
 use crate::check::{Checked, Control, GainSource, Tuning};
 use crate::control::{Design, DesignProblem, StepGraph, StepModel, design};
 use crate::error::{Diagnostics, Error};
+use crate::progress::Silent;
 use crate::spec::RobustGainSpec;
 
 /// A certified model with the controller that the specification asks for.
@@ -41,13 +43,10 @@ impl Designed {
             RobustGainSpec::Auto if certified.proved.bounds.is_zero() => state()?,
             RobustGainSpec::Auto => match state() {
                 // Gains that were searched for are judged again, not searched for again.
-                Ok(own) => {
-                    let same = Control { gains: GainSource::Given(tuning(&own.0)), ..control.clone() };
-                    match with_gain(&certified, &same, means, true) {
-                        Ok(other) => cheaper(own, other),
-                        Err(_) => own,
-                    }
-                }
+                Ok(own) => match with_gain(&certified, &given(control, &own.0), means, true) {
+                    Ok(other) => cheaper(own, other),
+                    Err(_) => own,
+                },
                 // A search for gains takes long where it finds none; one is enough.
                 Err(error) if matches!(control.gains, GainSource::Requested(_)) => return Err(error),
                 Err(error) => constant().map_err(|_| error)?,
@@ -69,12 +68,30 @@ impl Designed {
         self.exact_step.is_some() && !proved.model.reduced.is_exact() && bounded
     }
 
+    /// The controller with the same gains, but with a constant ρ or the law's own bracket.
+    ///
+    /// # Errors
+    /// [`Error::Input`] where there is no controller, or where it is refused so.
+    pub fn with_other_gain(&self, constant: bool) -> Result<Design, Error> {
+        let checked = &self.certified.checked;
+        let (Some(control), Some(design)) = (&checked.control, &self.design) else {
+            return Err(Error::input(&checked.loaded.path, "control", "is missing", "add `control`"));
+        };
+        let means = Means { effort: &Effort::default(), progress: &Silent, cache: None };
+        with_gain(&self.certified, &given(control, design), means, constant).map(|(design, _)| design)
+    }
+
     /// What the step saves against that of the exact model; `None` where there is nothing to compare.
     pub fn saving(&self) -> Option<Saving> {
         let [reduced, exact] =
             [&self.step, &self.exact_step].map(|step| step.as_ref().map(|step| step.operations().cost()));
         Some(Saving { reduced: reduced?, exact: exact? })
     }
+}
+
+/// The same with the numbers of `design` given.
+fn given(control: &Control, design: &Design) -> Control {
+    Control { gains: GainSource::Given(tuning(design)), ..control.clone() }
 }
 
 /// The numbers of a design, as a specification gives them.
