@@ -3,9 +3,12 @@
 use super::Means;
 use super::certified::Certified;
 use super::step_rounding::rounded_design;
+use super::replaced::{Replaced, Saving};
+use crate::bounds::Effort;
 use crate::check::{Checked, Control, GainSource, Tuning};
 use crate::control::{Design, DesignProblem, SingleRounding, StepGraph, StepModel, StepRounding, design};
 use crate::error::{Diagnostics, Error};
+use crate::progress::Silent;
 use crate::spec::RobustGainSpec;
 
 /// A certified model with the controller that the specification asks for.
@@ -23,24 +26,8 @@ pub(super) struct Designed {
     pub rounding: Option<StepRounding>,
     /// The step of the same law about the exact model; `None` without a controller, or for a law that learns.
     pub exact_step: Option<StepGraph>,
-    /// What a step with the cheapest reduced model would have saved, where that was too little.
-    pub not_worth: Option<Saving>,
-}
-
-/// Costs of two steps, by [`crate::graph::Operations::cost`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Saving {
-    /// With the reduced model.
-    pub reduced: usize,
-    /// With the exact one.
-    pub exact: usize,
-}
-
-impl Saving {
-    /// Whether a reduction pays: it saves a twentieth of the step at least.
-    pub fn pays(&self) -> bool {
-        20 * self.reduced <= 19 * self.exact
-    }
+    /// Why the model is exact though a reduced one was found; `None` where it is the one that was asked for.
+    pub replaced: Option<Replaced>,
 }
 
 impl Designed {
@@ -59,13 +46,10 @@ impl Designed {
             RobustGainSpec::Auto if certified.proved.bounds.is_zero() => state()?,
             RobustGainSpec::Auto => match state() {
                 // Gains that were searched for are judged again, not searched for again.
-                Ok(own) => {
-                    let same = Control { gains: GainSource::Given(tuning(&own.0)), ..control.clone() };
-                    match rounded_design(&certified, &same, means, true) {
-                        Ok(other) => cheaper(own, other),
-                        Err(_) => own,
-                    }
-                }
+                Ok(own) => match rounded_design(&certified, &given(control, &own.0), means, true) {
+                    Ok(other) => cheaper(own, other),
+                    Err(_) => own,
+                },
                 // A search for gains takes long where it finds none; one is enough.
                 Err(error) if matches!(control.gains, GainSource::Requested(_)) => return Err(error),
                 Err(error) => constant().map_err(|_| error)?,
@@ -82,12 +66,12 @@ impl Designed {
             step: Some(step),
             rounding: Some(rounding),
             exact_step,
-            not_worth: None,
+            replaced: None,
         })
     }
 
     fn without_controller(certified: Certified) -> Self {
-        Self { certified, design: None, step: None, rounding: None, exact_step: None, not_worth: None }
+        Self { certified, design: None, step: None, rounding: None, exact_step: None, replaced: None }
     }
 
     /// Whether the step of the exact model is known only once its controller is designed: it has bounds of its own.
@@ -98,23 +82,34 @@ impl Designed {
         self.exact_step.is_some() && !proved.model.reduced.is_exact() && bounded
     }
 
+    /// The controller with the same gains, but with a constant ρ or the law's own bracket.
+    ///
+    /// # Errors
+    /// [`Error::Input`] where there is no controller, or where it is refused so.
+    pub fn with_other_gain(&self, constant: bool) -> Result<Design, Error> {
+        let checked = &self.certified.checked;
+        let (Some(control), Some(design)) = (&checked.control, &self.design) else {
+            return Err(Error::input(&checked.loaded.path, "control", "is missing", "add `control`"));
+        };
+        let means = Means { effort: &Effort::default(), progress: &Silent, cache: None };
+        rounded_design(&self.certified, &given(control, design), means, constant).map(|(design, ..)| design)
+    }
+
     /// What the step saves against that of the exact model; `None` where there is nothing to compare.
     pub fn saving(&self) -> Option<Saving> {
         let [reduced, exact] =
             [&self.step, &self.exact_step].map(|step| step.as_ref().map(|step| step.operations().cost()));
         Some(Saving { reduced: reduced?, exact: exact? })
     }
+}
 
-    /// What it saves, where the specification leaves the choice of the model open and that is too little.
-    pub fn too_small(&self) -> Option<Saving> {
-        let open = self.certified.checked.loaded.spec.model.tolerance().is_some();
-        let reduced = !self.certified.proved.model.reduced.is_exact();
-        self.saving().filter(|saving| open && reduced && !saving.pays())
-    }
+/// The same with the numbers of `design` given.
+pub(super) fn given(control: &Control, design: &Design) -> Control {
+    Control { gains: GainSource::Given(tuning(design)), ..control.clone() }
 }
 
 /// The numbers of a design, as a specification gives them.
-pub(super) fn tuning(design: &Design) -> Tuning {
+fn tuning(design: &Design) -> Tuning {
     Tuning {
         period: design.period,
         w: design.w.clone(),

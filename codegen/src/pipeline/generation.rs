@@ -123,6 +123,14 @@ impl Generation {
         })
     }
 
+    /// The controller with these gains and a constant robust gain, or the law's own bracket.
+    ///
+    /// # Errors
+    /// [`Error::Input`] where there is no controller, or where it is refused with that robust gain.
+    pub(crate) fn design_with(&self, constant: bool) -> Result<Design, Error> {
+        self.designed.with_other_gain(constant)
+    }
+
     fn checked(&self) -> &Checked {
         &self.designed.certified.checked
     }

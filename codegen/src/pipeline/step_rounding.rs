@@ -2,9 +2,9 @@
 
 use super::Means;
 use super::certified::Certified;
-use super::designed::{design_with, tuning};
+use super::designed::{design_with, given};
 use crate::bounds::{Rates, six_digits_up};
-use crate::check::{Control, GainSource};
+use crate::check::Control;
 use crate::control::{
     Design, SingleRounding, StepGraph, StepRounding, StepStates, Surroundings, step_rounding,
 };
@@ -30,7 +30,7 @@ pub(super) fn rounded_design(
         return Ok((design, step, rounding));
     }
     // Gains that were searched for are judged again; another search is needed only where they do not stand the rounding.
-    let same = Control { gains: GainSource::Given(tuning(&design)), ..control.clone() };
+    let same = given(control, &design);
     let mut found = rounding;
     for _ in 0..ROUNDS {
         let n = found.torque.len();
