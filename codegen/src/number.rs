@@ -47,6 +47,18 @@ pub fn decimal(x: f64, decimals: usize) -> String {
     }
 }
 
+/// The smallest f32 that is not below `x`.
+pub fn single_up(x: f64) -> f32 {
+    let near = x as f32;
+    if f64::from(near) < x { near.next_up() } else { near }
+}
+
+/// The largest f32 that is not above `x`.
+pub fn single_down(x: f64) -> f32 {
+    let near = x as f32;
+    if f64::from(near) > x { near.next_down() } else { near }
+}
+
 /// `x` as a file would give it: every digit, powers of ten where the number would run long otherwise.
 pub fn scientific(x: f64) -> String {
     let size = x.abs();

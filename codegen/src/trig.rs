@@ -7,7 +7,7 @@ use std::sync::Arc;
 use gramforge_runtime::Real;
 use gramforge_runtime::trig::{self as runtime, Libm, Polynomial, Table};
 
-use crate::spec::TrigSpec;
+use crate::spec::{EmitSpec, ScalarSpec, TrigSpec};
 
 /// The least error that a table is made for: that of its largest size, rounded up.
 pub const FINEST: f64 = 1e-10;
@@ -41,10 +41,13 @@ pub struct Trig {
     pub kind: Kind,
     /// Neither sine nor cosine in f64 is off by more; for `Std` supposed, as for every platform.
     pub error: f64,
-    /// Largest |angle| for which that holds, rad.
+    /// The same in f32.
+    pub single_error: f64,
+    /// Largest |angle|, rad, for which that holds in the number type that the code is written in.
     pub range: f64,
     /// The table's (sin, cos) of 2πk/N in f64; empty without a table.
     pub pairs: Vec<(f64, f64)>,
+    single_range: f64,
     double: Pair<f64>,
     single: Pair<f32>,
 }
@@ -69,7 +72,16 @@ impl Angle for f32 {
 
 impl Trig {
     /// What `spec` asks for.
-    pub fn new(spec: &TrigSpec) -> Self {
+    pub fn new(spec: &EmitSpec) -> Self {
+        let sines = Self::by(&spec.sines());
+        match spec.scalar {
+            ScalarSpec::F64 => sines,
+            ScalarSpec::F32 => Self { range: sines.single_range, ..sines },
+        }
+    }
+
+    /// Those of f64 code.
+    fn by(spec: &TrigSpec) -> Self {
         match spec {
             TrigSpec::Libm => Self::of(Kind::Libm, Libm, Libm),
             TrigSpec::Polynomial => Self::of(Kind::Polynomial, Polynomial, Polynomial),
@@ -111,7 +123,9 @@ impl Trig {
         Self {
             kind,
             error: D::ERROR,
+            single_error: S::ERROR,
             range: D::RANGE,
+            single_range: S::RANGE,
             pairs: Vec::new(),
             double: Arc::new(move |x| double.sin_cos(x)),
             single: Arc::new(move |x| single.sin_cos(x)),
@@ -148,7 +162,7 @@ impl Trig {
 
 impl Default for Trig {
     fn default() -> Self {
-        Self::new(&TrigSpec::Libm)
+        Self::by(&TrigSpec::Libm)
     }
 }
 
@@ -194,7 +208,7 @@ mod tests {
     #[test]
     fn the_smallest_sufficient_table_is_taken() {
         for (error, size) in [(0.1, 8), (2e-3, 16), (1e-3, 32), (1e-6, 256), (FINEST, 4096)] {
-            let sines = Trig::new(&TrigSpec::Table { error });
+            let sines = Trig::by(&TrigSpec::Table { error });
             assert_eq!(sines.kind, Kind::Table(size));
             assert!(sines.error <= error && sines.pairs.len() == size);
         }

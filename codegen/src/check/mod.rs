@@ -134,7 +134,7 @@ fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Diagnostics) -> Option
     }
     let motion = spec.motion.as_ref().and_then(|motion| motion::check(motion, loaded, arm, joints, faults));
     domain::check(spec, arm, joints, faults);
-    if let TrigSpec::Table { error } = spec.emit.trig
+    if let TrigSpec::Table { error } = spec.emit.sines()
         && !(FINEST..=COARSEST).contains(&error)
     {
         let help =
@@ -174,7 +174,7 @@ fn going_together(spec: &Spec, faults: &mut Diagnostics) {
         ModelSpec::Separate { .. } => "`model` is `separate`",
         ModelSpec::Shared { .. } => "`model` is `shared`",
     };
-    if matches!(spec.emit.trig, TrigSpec::Table { .. }) && (chosen || products) {
+    if matches!(spec.emit.sines(), TrigSpec::Table { .. }) && (chosen || products) {
         let problem = format!(
             "asks for a table, which needs a `shared`, `separate` or `exact` model of the harmonic dictionary, but {asked}"
         );

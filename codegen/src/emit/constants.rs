@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
 use super::docs::functions;
-use super::literal::{count, matrix, vector};
+use super::literal::{Numbers, Rounding, count};
 use super::{Module, constant, spaced, unused};
 use crate::bounds::Bounds;
 use crate::error::Error;
@@ -29,8 +29,9 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
         }
     });
     let viscous: Vec<f64> = module.arm.joints.iter().map(|joint| joint.viscous_friction).collect();
-    let viscous = vector(&viscous)?;
-    let bounds = bounds(module.bounds)?;
+    let numbers = module.numbers();
+    let (scalar, viscous) = (numbers.name(), numbers.vector(&viscous)?);
+    let bounds = bounds(module.bounds, numbers)?;
     Ok(quote! {
         /// Number of joints n.
         #unused
@@ -44,14 +45,14 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
         #(#counts)*
         /// Diagonal of B, N·m·s/rad or N·s/m.
         #constant
-        pub const VISCOUS_FRICTION: [f64; #n] = #viscous;
+        pub const VISCOUS_FRICTION: [#scalar; #n] = #viscous;
         /// ΔD, Δh, ΔB and ΔG, certified over the domain, and for all arms, that the model's documentation names.
         #constant
-        pub const BOUNDS: ::gramforge_runtime::Bounds<f64, #n> = #bounds;
+        pub const BOUNDS: ::gramforge_runtime::Bounds<#scalar, #n> = #bounds;
     })
 }
 
-fn bounds(bounds: &Bounds) -> Result<TokenStream, Error> {
+fn bounds(bounds: &Bounds, numbers: Numbers) -> Result<TokenStream, Error> {
     let zero = bounds
         .d
         .iter()
@@ -62,8 +63,9 @@ fn bounds(bounds: &Bounds) -> Result<TokenStream, Error> {
     if zero.into_iter().all(|&x| x == 0.0) {
         return Ok(quote!(::gramforge_runtime::Bounds::ZERO));
     }
-    let d = matrix(&bounds.d)?;
-    let h = spaced(bounds.h.iter().map(|plane| matrix(plane)).collect::<Result<Vec<_>, _>>()?);
-    let (b, g) = (vector(&bounds.b)?, vector(&bounds.g)?);
+    let up = |m: &[Vec<f64>]| numbers.matrix_to(m, Rounding::Up);
+    let d = up(&bounds.d)?;
+    let h = spaced(bounds.h.iter().map(|plane| up(plane)).collect::<Result<Vec<_>, _>>()?);
+    let (b, g) = (numbers.vector_to(&bounds.b, Rounding::Up)?, numbers.vector_to(&bounds.g, Rounding::Up)?);
     Ok(quote!(::gramforge_runtime::Bounds { d: #d, h: #h, b: #b, g: #g }))
 }

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::literal::{count, float, matrix, vector};
+use super::literal::{Numbers, Rounding, count};
 use super::{Module, constant, docs, spaced, unused};
 use crate::control::{Adaptation, Design, RobustGain};
 use crate::error::Error;
@@ -13,16 +13,19 @@ use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec};
 pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, Error> {
     let n = count(module.arm.dof());
     let (unused, constant) = (unused(), constant());
-    let reference = module.motion.map(reference).transpose()?.map(|(kind, value)| {
-        quote! {
-            /// The desired motion.
-            #constant
-            pub const REFERENCE: #kind = #value;
-        }
-    });
+    let reference =
+        module.motion.map(|motion| reference(motion, module.numbers())).transpose()?.map(|(kind, value)| {
+            quote! {
+                /// The desired motion.
+                #constant
+                pub const REFERENCE: #kind = #value;
+            }
+        });
     let Some(design) = module.design else { return Ok(quote!(#reference)) };
-    let settings = settings(design)?;
-    let (law_type, law) = law(design)?;
+    let numbers = module.numbers();
+    let scalar = numbers.name();
+    let settings = settings(design, numbers)?;
+    let (law_type, law) = law(design, numbers)?;
     let promised = &design.guarantee;
     let guaranteed = promised.holds;
     let guaranteed_docs = docs::guaranteed(promised);
@@ -30,8 +33,8 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
         true => quote!(::core::option::Option::Some(#value)),
         false => quote!(::core::option::Option::None),
     };
-    let period_max = some(promised.period_certified, float(promised.period_max)?);
-    let final_error = some(promised.holds, vector(&promised.final_error)?);
+    let period_max = some(promised.period_certified, numbers.rounded(promised.period_max, Rounding::Down)?);
+    let final_error = some(promised.holds, numbers.vector_to(&promised.final_error, Rounding::Up)?);
     let made = match module.step {
         Some(step) => super::step::step(module, step, model)?,
         None => quote! {
@@ -55,14 +58,14 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
         /// Control period, s, below which the sampled loop is stable at every D of the domain, each D kept constant. `None` if
         /// it could not be certified.
         #constant
-        pub const PERIOD_MAX: ::core::option::Option<f64> = #period_max;
+        pub const PERIOD_MAX: ::core::option::Option<#scalar> = #period_max;
         /// Bound on |q − q_d| by joint, rad or m, once the effect of the initial errors has died away. A short motion may end
         /// before that. `None` if nothing is guaranteed.
         #constant
-        pub const FINAL_ERROR: ::core::option::Option<[f64; #n]> = #final_error;
+        pub const FINAL_ERROR: ::core::option::Option<[#scalar; #n]> = #final_error;
         /// Period, torque limits and fault policy.
         #constant
-        pub const SETTINGS: ::gramforge_runtime::Settings<f64, #n> = #settings;
+        pub const SETTINGS: ::gramforge_runtime::Settings<#scalar, #n> = #settings;
         /// The tracking law with its gains.
         #constant
         pub const LAW: ::gramforge_runtime::#law_type = #law;
@@ -72,10 +75,10 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
     })
 }
 
-fn settings(design: &Design) -> Result<TokenStream, Error> {
-    let period = float(design.period)?;
+fn settings(design: &Design, numbers: Numbers) -> Result<TokenStream, Error> {
+    let period = numbers.float(design.period)?;
     let limit = |limit: &Option<f64>| match limit {
-        Some(limit) => float(*limit).map(|x| quote!(::core::option::Option::Some(#x))),
+        Some(limit) => numbers.float(*limit).map(|x| quote!(::core::option::Option::Some(#x))),
         None => Ok(quote!(::core::option::Option::None)),
     };
     let limits = spaced(design.torque_limit.iter().map(limit).collect::<Result<Vec<_>, _>>()?);
@@ -91,26 +94,27 @@ fn settings(design: &Design) -> Result<TokenStream, Error> {
     }))
 }
 
-fn law(design: &Design) -> Result<(TokenStream, TokenStream), Error> {
-    let p12 = matrix(&design.gains.p12)?;
-    let damping = matrix(&design.gains.damping)?;
-    let pqq = matrix(&design.gains.pqq)?;
+fn law(design: &Design, numbers: Numbers) -> Result<(TokenStream, TokenStream), Error> {
+    let scalar = numbers.name();
+    let p12 = numbers.matrix(&design.gains.p12)?;
+    let damping = numbers.matrix(&design.gains.damping)?;
+    let pqq = numbers.matrix(&design.gains.pqq)?;
     let gains = quote!(::gramforge_runtime::Gains { p12: #p12, damping: #damping, pqq: #pqq });
-    let coulomb = matrix(&design.coulomb)?;
-    let disturbance = vector(&design.disturbance)?;
+    let coulomb = numbers.matrix(&design.coulomb)?;
+    let disturbance = numbers.vector(&design.disturbance)?;
     let switching = match &design.boundary_layer {
         None => quote!(::gramforge_runtime::Switching::Sign),
         Some(phi) => {
-            let phi = vector(phi)?;
+            let phi = numbers.vector(phi)?;
             quote!(::gramforge_runtime::Switching::BoundaryLayer(#phi))
         }
     };
     let n = count(design.gains.pqq.len());
     let report = || -> Result<TokenStream, Error> {
-        let delta_c = matrix(&design.delta_c)?;
+        let delta_c = numbers.matrix(&design.delta_c)?;
         let term = match design.coriolis_term {
             CoriolisTermSpec::Matrix => {
-                let delta_c1 = matrix(&design.delta_c1)?;
+                let delta_c1 = numbers.matrix(&design.delta_c1)?;
                 quote!(::gramforge_runtime::CoriolisTerm::Matrix(#delta_c1))
             }
             CoriolisTermSpec::Switching => quote!(::gramforge_runtime::CoriolisTerm::Switching),
@@ -126,24 +130,24 @@ fn law(design: &Design) -> Result<(TokenStream, TokenStream), Error> {
     };
     Ok(match (design.law, &design.adaptation) {
         (LawSpec::Report | LawSpec::Tight, _) if let RobustGain::Constant(gain) = &design.robust_gain => {
-            let gain = vector(gain)?;
+            let gain = numbers.vector(gain)?;
             let law = quote!(::gramforge_runtime::ConstantGainLaw {
                 gains: #gains,
                 robust_gain: #gain,
                 switching: #switching,
                 coulomb: #coulomb,
             });
-            (quote!(ConstantGainLaw<f64, #n>), law)
+            (quote!(ConstantGainLaw<#scalar, #n>), law)
         }
         (LawSpec::Exact, _) => (
-            quote!(ExactLaw<f64, #n>),
+            quote!(ExactLaw<#scalar, #n>),
             quote!(::gramforge_runtime::ExactLaw { gains: #gains, coulomb: #coulomb }),
         ),
         (LawSpec::Adaptive, Some(adaptation)) => {
             let parameters = count(adaptation.rate.len());
             let robust = report()?;
             let Adaptation { rate, low, high, initial, .. } = adaptation;
-            let [rate, low, high, initial] = [rate, low, high, initial].map(|x| vector(x));
+            let [rate, low, high, initial] = [rate, low, high, initial].map(|x| numbers.vector(x));
             let (rate, low, high, initial) = (rate?, low?, high?, initial?);
             let law = quote!(::gramforge_runtime::AdaptiveLaw {
                 robust: #robust,
@@ -152,9 +156,9 @@ fn law(design: &Design) -> Result<(TokenStream, TokenStream), Error> {
                 high: #high,
                 initial: #initial,
             });
-            (quote!(AdaptiveLaw<f64, #n, #parameters>), law)
+            (quote!(AdaptiveLaw<#scalar, #n, #parameters>), law)
         }
-        (LawSpec::Report | LawSpec::Adaptive, _) => (quote!(ReportLaw<f64, #n>), report()?),
+        (LawSpec::Report | LawSpec::Adaptive, _) => (quote!(ReportLaw<#scalar, #n>), report()?),
         (LawSpec::Tight, _) => {
             let law = quote!(::gramforge_runtime::TightLaw {
                 gains: #gains,
@@ -162,41 +166,41 @@ fn law(design: &Design) -> Result<(TokenStream, TokenStream), Error> {
                 switching: #switching,
                 coulomb: #coulomb,
             });
-            (quote!(TightLaw<f64, #n>), law)
+            (quote!(TightLaw<#scalar, #n>), law)
         }
     })
 }
 
 /// Type and value of the reference.
-fn reference(motion: &Motion) -> Result<(TokenStream, TokenStream), Error> {
+fn reference(motion: &Motion, numbers: Numbers) -> Result<(TokenStream, TokenStream), Error> {
     let n = count(motion.dof());
-    let duration = float(motion.duration())?;
+    let (scalar, duration) = (numbers.name(), numbers.float(motion.duration())?);
     let path = quote!(::gramforge_runtime::reference);
     Ok(match motion {
         Motion::Quintic { from, to, .. } => {
-            let (from, to) = (vector(from)?, vector(to)?);
+            let (from, to) = (numbers.vector(from)?, numbers.vector(to)?);
             (
-                quote!(#path::QuinticReference<f64, #n>),
+                quote!(#path::QuinticReference<#scalar, #n>),
                 quote!(#path::QuinticReference { from: #from, to: #to, duration: #duration }),
             )
         }
         Motion::Spline(spline) => {
             let segment = |(start, piece): (&f64, &Vec<[f64; 4]>)| -> Result<TokenStream, Error> {
-                let (start, coefficients) = (float(*start)?, matrix(piece)?);
+                let (start, coefficients) = (numbers.float(*start)?, numbers.matrix(piece)?);
                 Ok(quote!(#path::SplineSegment { start: #start, coefficients: #coefficients }))
             };
             let segments =
                 spaced(spline.times.iter().zip(&spline.pieces).map(segment).collect::<Result<Vec<_>, _>>()?);
             (
-                quote!(#path::SplineReference<'static, f64, #n>),
+                quote!(#path::SplineReference<'static, #scalar, #n>),
                 quote!(#path::SplineReference { segments: &#segments, duration: #duration }),
             )
         }
         Motion::Sinusoids { offset, terms, .. } => {
-            let offset = vector(offset)?;
+            let offset = numbers.vector(offset)?;
             let term = |s: &gramforge_runtime::reference::Sinusoid<f64>| -> Result<TokenStream, Error> {
                 let (amplitude, frequency, phase) =
-                    (float(s.amplitude)?, float(s.frequency)?, float(s.phase)?);
+                    (numbers.float(s.amplitude)?, numbers.float(s.frequency)?, numbers.float(s.phase)?);
                 Ok(quote!(#path::Sinusoid { amplitude: #amplitude, frequency: #frequency, phase: #phase }))
             };
             let joint = |terms: &Vec<_>| -> Result<TokenStream, Error> {
@@ -205,7 +209,7 @@ fn reference(motion: &Motion) -> Result<(TokenStream, TokenStream), Error> {
             };
             let terms = spaced(terms.iter().map(joint).collect::<Result<Vec<_>, _>>()?);
             (
-                quote!(#path::SinusoidReference<'static, f64, #n>),
+                quote!(#path::SinusoidReference<'static, #scalar, #n>),
                 quote!(#path::SinusoidReference { offset: #offset, terms: #terms, duration: #duration }),
             )
         }

@@ -33,6 +33,7 @@ use crate::graph::Graph;
 use crate::lagrangian::Lagrangian;
 use crate::model::Model;
 use crate::motion::Motion;
+use crate::spec::ScalarSpec;
 use crate::torque::Regressor;
 
 /// What a module is made from.
@@ -72,6 +73,14 @@ pub struct Module<'a> {
     pub design: Option<&'a Design>,
     /// Its step, where it is written out.
     pub step: Option<&'a StepGraph>,
+    /// Number type of the code.
+    pub scalar: ScalarSpec,
+}
+
+impl Module<'_> {
+    fn numbers(&self) -> literal::Numbers {
+        literal::Numbers(self.scalar)
+    }
 }
 
 /// The text of the module: a header of comments, constants, one model type, one trait impl.
@@ -82,15 +91,16 @@ pub struct Module<'a> {
 /// [`Error::Internal`] where a number that must be written is not finite, or the text does not parse.
 pub fn emit(module: &Module) -> Result<String, Error> {
     let n = literal::count(module.arm.dof());
+    let (numbers, scalar) = (module.numbers(), module.numbers().name());
     let model = Ident::new(&type_name(module.name), Span::call_site());
     let docs = docs::model(module);
     let constants = constants::constants(module)?;
     let controller = controller::controller(module, &model)?;
-    let parameters = statements::parameters(&module.model.code, module.arm.dof());
+    let parameters = statements::parameters(&module.model.code, module.arm.dof(), numbers);
     let regression = regression::regression(module, &model)?;
     let learnt = regression::constants(module)?;
-    let body = statements::body(&module.model.code)?;
-    let table = trig::table(&module.model.code.sines)?;
+    let body = statements::body(&module.model.code, numbers)?;
+    let table = trig::table(&module.model.code.sines, numbers)?;
     let (unused, plain) = (unused(), plain_numbers());
     let tokens = quote! {
         #(#[doc = #docs])*
@@ -105,17 +115,17 @@ pub fn emit(module: &Module) -> Result<String, Error> {
 
         #plain
         impl ::gramforge_runtime::Model<#n> for #model {
-            type Scalar = f64;
+            type Scalar = #scalar;
 
-            fn passivity_torque(&self, #parameters) -> [f64; #n] {
+            fn passivity_torque(&self, #parameters) -> [#scalar; #n] {
                 #body
             }
 
-            fn viscous_friction(&self) -> [f64; #n] {
+            fn viscous_friction(&self) -> [#scalar; #n] {
                 VISCOUS_FRICTION
             }
 
-            fn bounds(&self) -> &::gramforge_runtime::Bounds<f64, #n> {
+            fn bounds(&self) -> &::gramforge_runtime::Bounds<#scalar, #n> {
                 &BOUNDS
             }
         }

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::literal::{count, vector};
+use super::literal::count;
 use super::{Module, constant, plain_numbers, spaced, statements, unused};
 use crate::error::Error;
 
@@ -11,6 +11,7 @@ use crate::error::Error;
 pub(super) fn regression(module: &Module, model: &Ident) -> Result<TokenStream, Error> {
     let Some(regressor) = module.regressor else { return Ok(quote!()) };
     let n = module.arm.dof();
+    let (numbers, scalar) = (module.numbers(), module.numbers().name());
     let (joints, parameters) = (count(n), count(regressor.parameters));
     let operations = regressor.code.operations();
     let doc = format!(
@@ -21,11 +22,11 @@ pub(super) fn regression(module: &Module, model: &Ident) -> Result<TokenStream, 
         if regressor.own_base { ", and those of one passivity torque" } else { "" }
     );
     let inputs = if regressor.own_base {
-        quote!(q: &[f64; #joints], qd: &[f64; #joints], v_r: &[f64; #joints], a_r: &[f64; #joints])
+        quote!(q: &[#scalar; #joints], qd: &[#scalar; #joints], v_r: &[#scalar; #joints], a_r: &[#scalar; #joints])
     } else {
-        statements::parameters(&regressor.code, n)
+        statements::parameters(&regressor.code, n, numbers)
     };
-    let (statements, outputs) = statements::parts(&regressor.code)?;
+    let (statements, outputs) = statements::parts(&regressor.code, numbers)?;
     let (base, columns) = if regressor.own_base {
         let own = quote!(::gramforge_runtime::Model::passivity_torque(self, q, qd, v_r, a_r));
         (own, outputs.as_slice())
@@ -39,7 +40,7 @@ pub(super) fn regression(module: &Module, model: &Ident) -> Result<TokenStream, 
         #[doc = #doc]
         #plain
         impl ::gramforge_runtime::AdaptiveModel<#joints, #parameters> for #model {
-            fn regression(&self, #inputs) -> ::gramforge_runtime::Regression<f64, #joints, #parameters> {
+            fn regression(&self, #inputs) -> ::gramforge_runtime::Regression<#scalar, #joints, #parameters> {
                 #(#statements)*
                 ::gramforge_runtime::Regression { base: #base, columns: #columns }
             }
@@ -54,7 +55,8 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
     };
     let number = count(adaptation.names.len());
     let names = &adaptation.names;
-    let nominal = vector(&adaptation.initial)?;
+    let scalar = module.numbers().name();
+    let nominal = module.numbers().vector(&adaptation.initial)?;
     let (unused, constant) = (unused(), constant());
     Ok(quote! {
         /// Number of parameters θ that the law learns.
@@ -65,6 +67,6 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
         pub const PARAMETER_NAMES: [&str; #number] = [#(#names),*];
         /// θ of the arm as specified.
         #constant
-        pub const NOMINAL_PARAMETERS: [f64; #number] = #nominal;
+        pub const NOMINAL_PARAMETERS: [#scalar; #number] = #nominal;
     })
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
+use super::literal::Numbers;
 use super::names::Names;
 use super::{literal, spaced, trig};
 use crate::error::Error;
@@ -41,7 +42,8 @@ impl Written {
 }
 
 /// The parameters `q, qd, v_r, a_r`, with an underscore where the graph does not use one.
-pub(super) fn parameters(graph: &Graph, joints: usize) -> TokenStream {
+pub(super) fn parameters(graph: &Graph, joints: usize, numbers: Numbers) -> TokenStream {
+    let scalar = numbers.name();
     let n = literal::count(joints);
     let used = |test: fn(&Node) -> bool| graph.nodes.iter().any(test);
     let q = used(|node| matches!(node, Node::Input(Variable::Q(_)) | Node::Sin(_) | Node::Cos(_)));
@@ -51,12 +53,12 @@ pub(super) fn parameters(graph: &Graph, joints: usize) -> TokenStream {
     let names = [(q, "q"), (qd, "qd"), (v_r, "v_r"), (a_r, "a_r")].map(|(used, name)| {
         if used { Ident::new(name, Span::call_site()) } else { format_ident!("_{name}") }
     });
-    quote!(#(#names: &[f64; #n]),*)
+    quote!(#(#names: &[#scalar; #n]),*)
 }
 
 /// Statements and the array of results.
-pub(super) fn body(graph: &Graph) -> Result<TokenStream, Error> {
-    let (statements, outputs) = parts(graph)?;
+pub(super) fn body(graph: &Graph, numbers: Numbers) -> Result<TokenStream, Error> {
+    let (statements, outputs) = parts(graph, numbers)?;
     let outputs = spaced(outputs);
     Ok(quote!(#(#statements)* #outputs))
 }
@@ -64,21 +66,22 @@ pub(super) fn body(graph: &Graph) -> Result<TokenStream, Error> {
 /// Statements and results.
 ///
 /// Operators stand exactly as the graph has them: parentheses keep every rounding in its place.
-pub(super) fn parts(graph: &Graph) -> Result<(Vec<TokenStream>, Vec<TokenStream>), Error> {
-    parts_with(graph, &graph.outputs)
+pub(super) fn parts(graph: &Graph, numbers: Numbers) -> Result<(Vec<TokenStream>, Vec<TokenStream>), Error> {
+    parts_with(graph, &graph.outputs, numbers)
 }
 
 /// The same with the values of `wanted` in place of the graph's results.
 pub(super) fn parts_with(
     graph: &Graph,
     wanted: &[NodeId],
+    numbers: Numbers,
 ) -> Result<(Vec<TokenStream>, Vec<TokenStream>), Error> {
     let uses = graph.uses();
     let mut names = Names::default();
-    let mut statements = trigonometry(graph, &mut names)?;
+    let mut statements = trigonometry(graph, &mut names, numbers)?;
     let mut written: Vec<Written> = Vec::with_capacity(graph.nodes.len());
     for (id, &node) in graph.nodes.iter().enumerate() {
-        let expression = write(graph, node, &written)?;
+        let expression = write(graph, node, &written, numbers)?;
         let leaf = node.operands().next().is_none();
         let name = graph.names.get(id).and_then(Option::as_ref);
         let own_line = name.is_some_and(|name| name.own_line) || uses[id] > 1 || expression.operations > LONG;
@@ -96,7 +99,7 @@ pub(super) fn parts_with(
 }
 
 /// One call for each joint whose sine or cosine occurs.
-fn trigonometry(graph: &Graph, names: &mut Names) -> Result<Vec<TokenStream>, Error> {
+fn trigonometry(graph: &Graph, names: &mut Names, numbers: Numbers) -> Result<Vec<TokenStream>, Error> {
     let mut joints: BTreeMap<usize, (bool, bool)> = BTreeMap::new();
     for node in &graph.nodes {
         match *node {
@@ -118,7 +121,7 @@ fn trigonometry(graph: &Graph, names: &mut Names) -> Result<Vec<TokenStream>, Er
             let j = literal::count(j);
             let angle = match divided {
                 Some(&part) if part != 1 => {
-                    let factor = literal::float(1.0 / f64::from(part))?;
+                    let factor = numbers.float(1.0 / f64::from(part))?;
                     quote!(q[#j] * #factor)
                 }
                 _ => quote!(q[#j]),
@@ -129,7 +132,7 @@ fn trigonometry(graph: &Graph, names: &mut Names) -> Result<Vec<TokenStream>, Er
         .collect()
 }
 
-fn write(graph: &Graph, node: Node, written: &[Written]) -> Result<Written, Error> {
+fn write(graph: &Graph, node: Node, written: &[Written], numbers: Numbers) -> Result<Written, Error> {
     let input = |slice: &str, j: usize| {
         let (slice, j) = (Ident::new(slice, Span::call_site()), literal::count(j));
         Written::atom(quote!(#slice[#j]))
@@ -163,7 +166,7 @@ fn write(graph: &Graph, node: Node, written: &[Written]) -> Result<Written, Erro
         Node::Constant(bits) => {
             let x = f64::from_bits(bits);
             let binding = if x < 0.0 { Binding::Unary } else { Binding::Atom };
-            Written { tokens: literal::float(x)?, binding, operations: 0 }
+            Written { tokens: numbers.float(x)?, binding, operations: 0 }
         }
         // A sum, too: a longer sum in front needs no parentheses.
         Node::Add(a, b) if written[b].binding == Binding::Sum && written[a].binding != Binding::Sum => {

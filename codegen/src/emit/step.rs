@@ -11,7 +11,7 @@ use crate::graph::{Node, Variable};
 
 /// The impl of the runtime's `ControlStep`, its operation counts, and the controller.
 pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<TokenStream, Error> {
-    let n = count(module.arm.dof());
+    let (n, scalar) = (count(module.arm.dof()), module.numbers().name());
     let learns = step.parameters;
     let p = count(learns);
     let learnt = |learning: TokenStream, none: TokenStream| if learns == 0 { none } else { learning };
@@ -21,7 +21,7 @@ pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<T
         quote!(::gramforge_runtime::step::Learning::NONE),
     );
     let wanted: Vec<_> = step.asked().into_iter().chain(step.code.outputs.iter().copied()).collect();
-    let (statements, values) = statements::parts_with(&step.code, &wanted)?;
+    let (statements, values) = statements::parts_with(&step.code, &wanted, module.numbers())?;
     let (asked, rest) = values.split_at(step.joints.min(values.len()));
     let (limited, rest) = rest.split_at(step.joints.min(rest.len()));
     let (theta, unread) = rest.split_at(learns.min(rest.len()));
@@ -46,16 +46,16 @@ pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<T
 
         #plain
         impl ::gramforge_runtime::ControlStep<#parameters> for #model {
-            type Scalar = f64;
-            const SETTINGS: ::gramforge_runtime::Settings<f64, #n> = SETTINGS;
-            const LEARNING: ::gramforge_runtime::step::Learning<f64, #p> = #learning;
+            type Scalar = #scalar;
+            const SETTINGS: ::gramforge_runtime::Settings<#scalar, #n> = SETTINGS;
+            const LEARNING: ::gramforge_runtime::step::Learning<#scalar, #p> = #learning;
 
             fn step(
-                q: &[f64; #n],
-                qd: &[f64; #n],
-                desired: &::gramforge_runtime::Desired<f64, #n>,
-                #learnt_so_far: &[f64; #p],
-            ) -> ::gramforge_runtime::step::StepTorque<f64, #parameters> {
+                q: &[#scalar; #n],
+                qd: &[#scalar; #n],
+                desired: &::gramforge_runtime::Desired<#scalar, #n>,
+                #learnt_so_far: &[#scalar; #p],
+            ) -> ::gramforge_runtime::step::StepTorque<#scalar, #parameters> {
                 #functions
                 #(#statements)*
                 ::gramforge_runtime::step::StepTorque {
@@ -66,7 +66,7 @@ pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<T
                 }
             }
 
-            fn gravity_torque(q: &[f64; #n]) -> [f64; #n] {
+            fn gravity_torque(q: &[#scalar; #n]) -> [#scalar; #n] {
                 ::gramforge_runtime::Model::gravity(&#model, q)
             }
         }

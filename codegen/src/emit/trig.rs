@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::literal::{count, float};
+use super::literal::{Numbers, count};
 use super::{constant, spaced};
 use crate::bounds::printed_up;
 use crate::error::Error;
@@ -22,14 +22,14 @@ pub(super) fn call(sines: &Trig, angle: TokenStream) -> TokenStream {
 }
 
 /// The table as a static; nothing where the code has none.
-pub(super) fn table(sines: &Trig) -> Result<TokenStream, Error> {
+pub(super) fn table(sines: &Trig, numbers: Numbers) -> Result<TokenStream, Error> {
     let Kind::Table(n) = sines.kind else { return Ok(TokenStream::new()) };
     let pair = |&(sin, cos): &(f64, f64)| -> Result<TokenStream, Error> {
-        let (sin, cos) = (float(sin)?, float(cos)?);
+        let (sin, cos) = (numbers.float(sin)?, numbers.float(cos)?);
         Ok(quote!((#sin, #cos)))
     };
     let pairs = spaced(sines.pairs.iter().map(pair).collect::<Result<Vec<_>, _>>()?);
-    let (n, constant) = (count(n), constant());
+    let (n, constant, scalar) = (count(n), constant(), numbers.name());
     let doc = format!(
         " Sines and cosines of one turn; interpolated, none is off by more than {}.",
         printed_up(sines.error)
@@ -37,6 +37,6 @@ pub(super) fn table(sines: &Trig) -> Result<TokenStream, Error> {
     Ok(quote! {
         #[doc = #doc]
         #constant
-        pub static SINES: ::gramforge_runtime::trig::Table<f64, #n> = ::gramforge_runtime::trig::Table::new(#pairs);
+        pub static SINES: ::gramforge_runtime::trig::Table<#scalar, #n> = ::gramforge_runtime::trig::Table::new(#pairs);
     })
 }

@@ -134,6 +134,7 @@ impl Generation {
             motion: self.motion(),
             design: self.design(),
             step: self.step().filter(|_| self.spec().emit.law == LawCodeSpec::Inline),
+            scalar: self.spec().emit.scalar,
         })
     }
 

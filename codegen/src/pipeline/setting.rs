@@ -28,7 +28,7 @@ impl Setting {
         let position_bound = position_bound(&turn);
         let family = (&built.arm, &built.uncertainty);
         let angles = rounded_angles(family, (&built.given, &built.uncertain), &position_bound);
-        Self { sines: Trig::new(&checked.loaded.spec.emit.trig), turn, position_bound, angles }
+        Self { sines: Trig::new(&checked.loaded.spec.emit), turn, position_bound, angles }
     }
 
     /// What the bounds of `model` follow from.

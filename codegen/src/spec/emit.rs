@@ -10,9 +10,9 @@ pub struct EmitSpec {
     /// Number type of the generated code.
     #[serde(default)]
     pub scalar: ScalarSpec,
-    /// How sines and cosines are taken.
-    #[serde(default, skip_serializing_if = "TrigSpec::is_default")]
-    pub trig: TrigSpec,
+    /// How sines and cosines are taken; by default `libm` in f64 and `polynomial` in f32.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub trig: Option<TrigSpec>,
     /// How the law is written.
     #[serde(default, skip_serializing_if = "LawCodeSpec::is_default")]
     pub law: LawCodeSpec,
@@ -24,6 +24,18 @@ pub struct EmitSpec {
 /// True for what an absent field means.
 fn is_false(value: &bool) -> bool {
     !*value
+}
+
+impl EmitSpec {
+    /// How sines and cosines are taken.
+    pub fn sines(&self) -> TrigSpec {
+        let default = match self.scalar {
+            ScalarSpec::F64 => TrigSpec::Libm,
+            // In f32 `libm` computes in f64, which costs thousands of instructions on a processor without double.
+            ScalarSpec::F32 => TrigSpec::Polynomial,
+        };
+        self.trig.unwrap_or(default)
+    }
 }
 
 /// How the generated module holds the tracking law.
@@ -46,14 +58,13 @@ impl LawCodeSpec {
 }
 
 /// How the generated code takes sines and cosines; the error counts in the bounds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum TrigSpec {
-    /// The crate `libm`.
-    #[default]
+    /// The crate `libm`; the default in f64.
     Libm,
-    /// Polynomials, as good as rounding and faster.
+    /// Polynomials, as good as rounding and faster; the default in f32.
     Polynomial,
     /// A table of one turn in the module, with second-order interpolation; for `shared`, `separate` and `exact` models of
     /// the harmonic dictionary.
@@ -65,13 +76,6 @@ pub enum TrigSpec {
     Std,
 }
 
-impl TrigSpec {
-    /// True for what an absent field means.
-    fn is_default(&self) -> bool {
-        *self == Self::default()
-    }
-}
-
 /// Number type of the generated code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -80,4 +84,24 @@ pub enum ScalarSpec {
     /// IEEE double.
     #[default]
     F64,
+    /// IEEE single.
+    F32,
+}
+
+impl ScalarSpec {
+    /// The name of the type.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::F64 => "f64",
+            Self::F32 => "f32",
+        }
+    }
+
+    /// The largest relative error of one rounding.
+    pub fn unit(self) -> f64 {
+        match self {
+            Self::F64 => 0.5 * f64::EPSILON,
+            Self::F32 => 0.5 * f64::from(f32::EPSILON),
+        }
+    }
 }
