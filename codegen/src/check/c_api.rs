@@ -1,7 +1,7 @@
 //! What a C interface needs.
 
 use crate::error::Diagnostics;
-use crate::spec::{LawCodeSpec, Spec};
+use crate::spec::{LawCodeSpec, Spec, TrigSpec};
 
 /// Names whose functions would be those of the C library of an operating system, such as `sem_init`.
 const LIBRARY: [&str; 2] = ["pthread", "sem"];
@@ -22,6 +22,10 @@ pub(super) fn check(spec: &Spec, faults: &mut Diagnostics) {
         let problem =
             "asks for a C interface, which needs a step that is written out, but `emit.law` is `runtime`";
         faults.push("emit.c_api", problem, "remove `emit.law` or `emit.c_api`");
+    }
+    if spec.emit.sines() == TrigSpec::Std {
+        let problem = "is \"std\", which puts the standard library into the C library: two of these do not link into one program";
+        faults.push("emit.trig", problem, "write \"polynomial\", or remove `emit.c_api`");
     }
     let name = spec.name.as_str();
     if LIBRARY.contains(&name) || FAMILIES.iter().any(|start| name.starts_with(start)) {

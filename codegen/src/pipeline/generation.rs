@@ -108,11 +108,7 @@ impl Generation {
     /// # Errors
     /// As [`Generation::module`].
     pub fn c_files(&self) -> Result<Vec<CFile>, Error> {
-        let emit = &self.spec().emit;
-        if !emit.c_api {
-            return Ok(Vec::new());
-        }
-        self.with_module(|module| c_interface(module, emit.scalar))
+        if self.spec().emit.c_api { self.with_module(c_interface) } else { Ok(Vec::new()) }
     }
 
     fn with_module<T>(&self, write: impl FnOnce(&Module) -> Result<T, Error>) -> Result<T, Error> {

@@ -5,6 +5,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use gramforge::{Config, Output};
 use gramforge_tests::{scratch, spec};
 use serde_json::{Value, json};
 
@@ -12,6 +13,8 @@ use serde_json::{Value, json};
 pub struct Library {
     folder: PathBuf,
     archives: Vec<PathBuf>,
+    /// The modules.
+    pub outputs: Vec<Output>,
 }
 
 /// A compiler and the language that it takes a program for.
@@ -38,19 +41,24 @@ pub fn installed(tool: &str) -> bool {
     there
 }
 
-/// Makes modules with a C interface from the specifications `names`, into `out`.
-pub fn generate(names: &[&str], specs: &Path, out: &Path) {
-    let mut config = gramforge::Config::new().out_dir(out);
-    for name in names {
-        let text = fs::read_to_string(spec(name)).expect("a specification");
-        let mut value: Value = serde_json::from_str(&text).expect("JSON");
-        value["emit"]["c_api"] = json!(true);
-        let path = specs.join(format!("{name}.json"));
-        fs::create_dir_all(specs).expect("a folder");
+/// The specification `name`, with a C interface.
+pub fn with_c_api(name: &str) -> Value {
+    let text = fs::read_to_string(spec(name)).expect("a specification");
+    let mut value: Value = serde_json::from_str(&text).expect("JSON");
+    value["emit"]["c_api"] = json!(true);
+    value
+}
+
+/// Writes the specifications into the folder `specs` and what they give into `out`.
+pub fn generate(values: &[Value], specs: &Path, out: &Path) -> Vec<Output> {
+    fs::create_dir_all(specs).expect("a folder");
+    let mut config = Config::new().out_dir(out);
+    for value in values {
+        let path = specs.join(format!("{}.json", value["name"].as_str().expect("a name")));
         fs::write(&path, value.to_string()).expect("written");
         config = config.spec(path);
     }
-    config.generate().unwrap_or_else(|error| panic!("{error}"));
+    config.generate().unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Tells the cargo that runs below `folder` where the runtime is, as a user does who has no package registry.
@@ -68,15 +76,16 @@ pub fn lock(shim: &Path) {
 }
 
 impl Library {
-    /// Generates and builds the modules `names`.
-    pub fn new(names: &[&str]) -> Self {
+    /// Generates and builds the modules of these specifications.
+    pub fn new(specs: &[Value]) -> Self {
         // The same place every time: what cargo has built of the crates behind them is not built again.
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("c_api");
         let _ = fs::remove_dir_all(folder.join("out"));
         patch(&folder);
-        generate(names, &folder.join("specs"), &folder.join("out"));
-        let mut library = Self { folder, archives: Vec::new() };
-        for name in names {
+        let outputs = generate(specs, &folder.join("specs"), &folder.join("out"));
+        let mut library = Self { folder, archives: Vec::new(), outputs };
+        for spec in specs {
+            let name = spec["name"].as_str().expect("a name");
             let shim = library.file(&format!("{name}_c"));
             lock(&shim);
             let target = library.folder.join("target");

@@ -96,7 +96,7 @@ impl<S: ControlStep<3, P, Scalar = f64>, const P: usize> Answering<S, P> {
         let mut q: [f64; 3] = std::array::from_fn(|i| desired.q[i] + e[i]);
         let mut qd: [f64; 3] = std::array::from_fn(|i| desired.qd[i] + ed[i]);
         self.step(script, &q, &qd, &desired);
-        let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e200][index / 10 % 4];
+        let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX][index / 10 % 4];
         if index % 10 != 9 {
             return 0;
         }

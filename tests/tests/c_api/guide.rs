@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use super::build::{generate, installed, lock, patch};
+use crate::build::{generate, installed, lock, patch, with_c_api};
 
 const GUIDE: &str = include_str!("../../../docs/guides/c.md");
 
@@ -36,7 +36,7 @@ fn run(folder: &Path, program: &str, arguments: &[&str]) -> String {
 fn the_guide_builds_and_runs() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
-    generate(&["arm3_xi2"], &path.join("specs"), &path.join("generated"));
+    generate(&[with_c_api("arm3_xi2")], &path.join("specs"), &path.join("generated"));
     lock(&path.join("generated/arm3_xi2_c"));
     patch(path);
     for (file, language) in [("main.c", "c"), ("Makefile", "makefile"), ("CMakeLists.txt", "cmake")] {

@@ -3,13 +3,17 @@
 //! The texts stand in files of their own beside this one, with `{{word}}` for what depends on the module.
 
 mod header;
-mod manifest;
 mod shim;
 
 use super::Module;
 use crate::error::Error;
 use crate::spec::ScalarSpec;
-use crate::trig::Kind;
+
+/// The crate's manifest.
+///
+/// Its profiles put all into one object of which only the functions of the header can be seen: two such archives go into one
+/// program, whatever compilers made them.
+const MANIFEST: &str = include_str!("manifest.toml.in");
 
 /// A file of the C interface.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,8 +36,6 @@ struct Interface<'a> {
     period: f64,
     /// Time that the desired motion takes, s; `None` where there is no motion.
     duration: Option<f64>,
-    /// Whether the runtime takes its sines from `std`, which has a panic handler.
-    std: bool,
 }
 
 /// The number type, in Rust and in C.
@@ -41,8 +43,6 @@ struct Interface<'a> {
 struct Scalar {
     rust: &'static str,
     c: &'static str,
-    /// What stands behind a number in C.
-    suffix: &'static str,
     /// Its size, which is that of the words that a controller is kept in, bytes.
     size: usize,
 }
@@ -50,7 +50,8 @@ struct Scalar {
 impl Scalar {
     fn of(spec: ScalarSpec) -> Self {
         match spec {
-            ScalarSpec::F64 => Self { rust: "f64", c: "double", suffix: "", size: 8 },
+            ScalarSpec::F64 => Self { rust: "f64", c: "double", size: 8 },
+            ScalarSpec::F32 => Self { rust: "f32", c: "float", size: 4 },
         }
     }
 }
@@ -64,7 +65,7 @@ impl Interface<'_> {
     /// `text` with the words that every file has in common.
     fn fill(&self, text: &str) -> String {
         let upper = self.name.to_uppercase();
-        let (words, bits) = (self.words(), 8 * self.scalar.size);
+        let (words, size) = (self.words(), self.scalar.size);
         [
             ("name", self.name.to_string()),
             ("NAME", upper),
@@ -74,9 +75,9 @@ impl Interface<'_> {
             ("joints", self.joints.to_string()),
             ("parameters", self.parameters.to_string()),
             ("words", words.to_string()),
-            ("size", (words * self.scalar.size).to_string()),
-            ("align", self.scalar.size.to_string()),
-            ("bits", bits.to_string()),
+            ("size", (words * size).to_string()),
+            ("align", size.to_string()),
+            ("bits", (8 * size).to_string()),
             ("rust_scalar", self.scalar.rust.to_string()),
             ("c_scalar", self.scalar.c.to_string()),
             ("period", self.number(self.period)),
@@ -88,7 +89,10 @@ impl Interface<'_> {
 
     /// `x` in C, with the bits that it has in the module.
     fn number(&self, x: f64) -> String {
-        format!("{x:?}{}", self.scalar.suffix)
+        match self.scalar.size {
+            4 => format!("{:?}f", x as f32),
+            _ => format!("{x:?}"),
+        }
     }
 }
 
@@ -96,25 +100,24 @@ impl Interface<'_> {
 ///
 /// # Errors
 /// [`Error::Internal`] where the module has no such step.
-pub fn c_interface(module: &Module, scalar: ScalarSpec) -> Result<Vec<CFile>, Error> {
+pub fn c_interface(module: &Module) -> Result<Vec<CFile>, Error> {
     let (Some(design), Some(step)) = (module.design, module.step) else {
         return Err(Error::Internal("a C interface was asked for without a control step".to_string()));
     };
     let interface = Interface {
         name: module.name,
         hash: module.hash,
-        scalar: Scalar::of(scalar),
+        scalar: Scalar::of(module.scalar),
         joints: step.joints,
         parameters: step.parameters,
         period: design.period,
         duration: module.motion.map(crate::motion::Motion::duration),
-        std: module.model.code.sines.kind == Kind::Std,
     };
     let file = |path: String, text: String| CFile { path, text };
     let name = module.name;
     Ok(vec![
         file(format!("{name}.h"), header::text(&interface)),
-        file(format!("{name}_c/Cargo.toml"), manifest::text(&interface)),
+        file(format!("{name}_c/Cargo.toml"), interface.fill(MANIFEST)),
         file(format!("{name}_c/src/lib.rs"), shim::text(&interface)),
     ])
 }

@@ -5,8 +5,7 @@ use super::Interface;
 /// Its source.
 pub(super) fn text(interface: &Interface) -> String {
     let mut text = include_str!("shim_head.rs.in").to_string();
-    // The standard library, which the sines come from, has a panic handler.
-    text += if interface.std { "extern crate std;\n" } else { include_str!("shim_panic.rs.in") };
+    text += include_str!("shim_panic.rs.in");
     text += include_str!("shim_types.rs.in");
     text += include_str!("shim_memory.rs.in");
     text += include_str!("shim_functions.rs.in");
