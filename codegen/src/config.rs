@@ -52,13 +52,30 @@ pub struct Output {
     pub text: String,
     /// Whether the file was written: it was missing, or its content was different.
     pub written: bool,
+    /// The C interface, where the specification asks for it.
+    pub c_files: Vec<OutputFile>,
     /// What the module was made from.
     pub generation: Generation,
 }
 
+/// A file beside a module.
+#[non_exhaustive]
+#[derive(Clone, Debug)]
+pub struct OutputFile {
+    /// Where it is.
+    pub path: PathBuf,
+    /// Its text.
+    pub text: String,
+    /// Whether it was written: it was missing, or its content was different.
+    pub written: bool,
+}
+
 impl Output {
-    fn wanted(&self) -> Wanted<'_> {
-        (&self.path, &self.text)
+    /// All files: the module first.
+    fn wanted(&self) -> Vec<Wanted<'_>> {
+        let module: Wanted = (&self.path, &self.text);
+        let beside = self.c_files.iter().map(|file| -> Wanted { (&file.path, &file.text) });
+        std::iter::once(module).chain(beside).collect()
     }
 }
 
@@ -104,34 +121,36 @@ impl Config {
         self
     }
 
-    /// Generates every module and writes those that changed. No file is touched unless all can be generated and written.
+    /// Generates every module, with the C interface where it is asked for, and writes the files that changed. No file is touched unless all can be generated and written.
     ///
     /// # Errors
     /// [`Error::Input`] with the faults of all specifications, or where a file cannot be written.
     pub fn generate(&self) -> Result<Vec<Output>, Error> {
         let mut outputs = self.build(self.load())?;
-        let written = write_all(&outputs.iter().map(Output::wanted).collect::<Vec<_>>())?;
-        for (output, written) in outputs.iter_mut().zip(written) {
-            output.written = written;
+        let written = write_all(&outputs.iter().flat_map(Output::wanted).collect::<Vec<_>>())?;
+        let flags = outputs.iter_mut().flat_map(|output| {
+            std::iter::once(&mut output.written)
+                .chain(output.c_files.iter_mut().map(|file| &mut file.written))
+        });
+        for (flag, written) in flags.zip(written) {
+            *flag = written;
         }
         Ok(outputs)
     }
 
-    /// Compares every module with its file, byte for byte, and writes nothing.
+    /// Compares every module, and every file of a C interface, with its file, byte for byte, and writes nothing.
     ///
     /// # Errors
     /// [`Error::Stale`] with every file that differs or is missing; otherwise as [`Config::generate`].
     pub fn check(&self) -> Result<Vec<Output>, Error> {
         let outputs = self.build(self.load())?;
-        let differing =
-            outputs.iter().zip(&self.specs).filter(|(output, _)| !is_current(&output.path, &output.text));
-        let stale: Vec<Stale> = differing
-            .map(|(output, spec)| {
-                let folder = output.path.parent().unwrap_or(Path::new(".")).display();
-                let command = format!("gramforge generate {} --out {folder}", spec.display());
-                Stale { path: output.path.clone(), command }
-            })
-            .collect();
+        let mut stale = Vec::new();
+        for (output, spec) in outputs.iter().zip(&self.specs) {
+            let folder = output.path.parent().unwrap_or(Path::new(".")).display();
+            let command = format!("gramforge generate {} --out {folder}", spec.display());
+            let differing = output.wanted().into_iter().filter(|(path, text)| !is_current(path, text));
+            stale.extend(differing.map(|(path, _)| Stale { path: path.into(), command: command.clone() }));
+        }
         if stale.is_empty() { Ok(outputs) } else { Err(Error::Stale(stale)) }
     }
 
@@ -143,7 +162,8 @@ impl Config {
     /// If anything is wrong, cargo shows every fault, and each of these modules is replaced by one that does not compile
     /// and that holds the message. The process then ends with exit code 1: `build.rs` stops, and the build fails.
     ///
-    /// Files outside `OUT_DIR` (see [`Config::out_dir`]) are written but never removed.
+    /// Files outside `OUT_DIR` (see [`Config::out_dir`]) are written but never removed. The C interface of `emit.c_api` is not
+    /// written: a crate has no use for it.
     pub fn run_in_build_script(&self) {
         let done = build_script::run(self, &mut stdout().lock());
         if !done {
@@ -158,7 +178,7 @@ impl Config {
 
     fn build(&self, loaded: Vec<Result<Loaded, Error>>) -> Result<Vec<Output>, Error> {
         let made = self.make(loaded, None)?;
-        Ok(made.into_iter().filter_map(Made::into_output).collect())
+        made.into_iter().filter_map(|made| made.into_output().transpose()).collect()
     }
 
     /// Makes every module that `cache` does not hold.

@@ -57,7 +57,7 @@ mod torque;
 mod trig;
 
 pub use bounds::Effort;
-pub use config::{Config, Output};
+pub use config::{Config, Output, OutputFile};
 pub use error::{Diagnostic, Error, Stale};
 pub use pipeline::Generation;
 pub use progress::Progress;

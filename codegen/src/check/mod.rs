@@ -1,5 +1,6 @@
 //! Whether the numbers of a specification make sense together with its arm.
 
+mod c_api;
 mod checked;
 mod control;
 mod domain;
@@ -149,6 +150,7 @@ fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Diagnostics) -> Option
             "leave it out, or write `emit.scalar` as \"f64\"",
         );
     }
+    c_api::check(spec, faults);
     if let Some(duration) = spec.simulation.duration.filter(|v| *v <= 0.0) {
         faults.push(
             "simulation.duration",

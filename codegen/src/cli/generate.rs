@@ -8,12 +8,12 @@ use serde::Serialize;
 
 use super::progress::Bars;
 use super::{json, show_warnings};
-use crate::config::{Config, Output};
+use crate::config::{Config, Output, OutputFile};
 use crate::emit::torque_in_words;
 use crate::error::Error;
 use crate::graph::Operations;
 
-/// Writes DIR/NAME.rs for each specification, or with --check compares without writing.
+/// Writes DIR/NAME.rs for each specification, with DIR/NAME.h and DIR/NAME_c where it asks for a C interface, or with --check compares without writing.
 #[derive(Debug, Args)]
 pub(super) struct Generate {
     /// The specification files.
@@ -34,6 +34,9 @@ pub(super) struct Generate {
 struct Written<'a> {
     path: String,
     written: bool,
+    /// The files of the C interface.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    c_files: Vec<Beside>,
     form: &'static str,
     bytes: usize,
     operations: Operations,
@@ -44,6 +47,12 @@ struct Written<'a> {
     /// Largest torque by joint, N·m or N.
     peak_torque: Option<&'a [f64]>,
     warnings: &'a [String],
+}
+
+#[derive(Serialize)]
+struct Beside {
+    path: String,
+    written: bool,
 }
 
 impl Generate {
@@ -66,7 +75,7 @@ impl Generate {
 
     fn line(&self, output: &Output) -> String {
         let view = written(output);
-        let state = match (self.check, output.written) {
+        let state = |written: bool| match (self.check, written) {
             (true, _) => "current",
             (false, true) => "written",
             (false, false) => "unchanged",
@@ -74,14 +83,17 @@ impl Generate {
         let cost = |o: &Operations| format!("{} mul, {} add, {} sin-cos pairs", o.mul, o.add, o.trig_pairs);
         let torque = output.generation.torque();
         let error = torque.map_or(String::new(), |torque| format!(" {}", torque_in_words(torque)));
-        format!(
-            "{}: {state}, {} bytes, {}; exact {}; {}{error}\n",
+        let line = format!(
+            "{}: {}, {} bytes, {}; exact {}; {}{error}\n",
             view.path,
+            state(view.written),
             view.bytes,
             cost(&view.operations),
             cost(&view.exact_operations),
             view.verdict
-        )
+        );
+        let beside = view.c_files.iter().map(|file| format!("{}: {}\n", file.path, state(file.written)));
+        std::iter::once(line).chain(beside).collect()
     }
 }
 
@@ -95,10 +107,15 @@ fn written(output: &Output) -> Written<'_> {
         peak_torque: torque.map(|torque| torque.peak.as_slice()),
         path: output.path.display().to_string(),
         written: output.written,
+        c_files: output.c_files.iter().map(beside).collect(),
         form: output.generation.form().name(),
         bytes: output.text.len(),
         operations,
         exact_operations: exact,
         warnings: output.generation.warnings(),
     }
+}
+
+fn beside(file: &OutputFile) -> Beside {
+    Beside { path: file.path.display().to_string(), written: file.written }
 }

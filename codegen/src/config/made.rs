@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::Output;
+use super::{Output, OutputFile};
 use crate::bounds::Effort;
 use crate::cache::Cache;
+use crate::emit::CFile;
 use crate::error::Error;
 use crate::load::Loaded;
 use crate::output::Wanted;
@@ -72,10 +73,17 @@ impl Made {
         (&self.module, &self.text.module)
     }
 
-    /// The same for users; `None` where it was taken from an earlier run.
-    pub fn into_output(self) -> Option<Output> {
-        let generation = self.generation?;
-        Some(Output { path: self.module, text: self.text.module, written: false, generation })
+    /// The same for users, with the C interface; `None` where it was taken from an earlier run.
+    ///
+    /// # Errors
+    /// As [`Generation::module`].
+    pub fn into_output(self) -> Result<Option<Output>, Error> {
+        let Some(generation) = self.generation else { return Ok(None) };
+        let folder = self.module.parent().unwrap_or(Path::new("")).to_path_buf();
+        let beside =
+            |file: CFile| OutputFile { path: folder.join(file.path), text: file.text, written: false };
+        let c_files = generation.c_files()?.into_iter().map(beside).collect();
+        Ok(Some(Output { path: self.module, text: self.text.module, written: false, c_files, generation }))
     }
 }
 

@@ -1,5 +1,6 @@
-//! From graph and constants to formatted Rust; the only place that knows `quote`.
+//! From graph and constants to formatted Rust; the only place that knows `quote`. The C interface is plain text.
 
+mod c_header;
 mod constants;
 mod controller;
 mod docs;
@@ -13,6 +14,7 @@ mod step;
 mod trig;
 mod type_name;
 
+pub use c_header::{CFile, c_interface};
 pub use type_name::type_name;
 
 #[cfg(feature = "cli")]

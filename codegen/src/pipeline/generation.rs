@@ -11,7 +11,7 @@ use crate::cache::Cache;
 use crate::check::{Checked, Control, Extent, read};
 use crate::control::{Design, StepGraph, StepRounding};
 use crate::domain::Domain;
-use crate::emit::{Module, emit};
+use crate::emit::{CFile, Module, c_interface, emit};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::lagrangian::Lagrangian;
@@ -100,7 +100,19 @@ impl Generation {
     /// # Errors
     /// [`Error::Input`] where a named file has become unreadable, [`Error::Internal`] for defects.
     pub fn module(&self) -> Result<String, Error> {
-        emit(&Module {
+        self.with_module(emit)
+    }
+
+    /// The files of the C interface; none without `emit.c_api`.
+    ///
+    /// # Errors
+    /// As [`Generation::module`].
+    pub fn c_files(&self) -> Result<Vec<CFile>, Error> {
+        if self.spec().emit.c_api { self.with_module(c_interface) } else { Ok(Vec::new()) }
+    }
+
+    fn with_module<T>(&self, write: impl FnOnce(&Module) -> Result<T, Error>) -> Result<T, Error> {
+        write(&Module {
             name: &self.spec().name,
             hash: &spec_hash(&self.checked().loaded)?,
             arm: self.arm(),

@@ -18,6 +18,14 @@ pub struct EmitSpec {
     /// How the law is written.
     #[serde(default, skip_serializing_if = "LawCodeSpec::is_default")]
     pub law: LawCodeSpec,
+    /// Write a C header and a crate that gives a C library beside the module.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub c_api: bool,
+}
+
+/// True for what an absent field means.
+fn is_false(value: &bool) -> bool {
+    !*value
 }
 
 impl EmitSpec {
