@@ -2,8 +2,8 @@
 
 use super::Means;
 use super::certified::Certified;
-use super::step_rounding::rounded_design;
 use super::replaced::{Replaced, Saving};
+use super::step_rounding::rounded_design;
 use crate::bounds::Effort;
 use crate::check::{Checked, Control, GainSource, Tuning};
 use crate::control::{Design, DesignProblem, SingleRounding, StepGraph, StepModel, StepRounding, design};
