@@ -62,6 +62,8 @@ struct Inspection<'a> {
     operations: Costs,
     /// Of a whole control step.
     step_operations: Option<StepCosts>,
+    /// What a control step rounds by at most, by joint, N·m or N.
+    step_rounding: Option<&'a [f64]>,
     /// Of the module, bytes.
     size: usize,
     verdict: String,

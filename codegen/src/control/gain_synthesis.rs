@@ -32,14 +32,7 @@ pub(super) fn tune(stage: &Stage, request: &GainRequest) -> Result<Tuning, Error
     let periods = request.period.map_or(PERIODS.to_vec(), |period| vec![period]);
     let told = progress::Stage::new(progress, "search for gains", periods.len());
     let scene = Scene::new(stage, &target);
-    let mut obstacles = outside(domain, motion, arm, &vec![0.0; n]);
-    let taken = stage.feedforward.as_ref();
-    obstacles.extend(taken.map_or(Vec::new(), |taken| taken.beyond_limits(arm, &stage.coulomb)));
-    let closed = (1..).zip(&own).filter(|(_, room)| **room <= 0.0);
-    obstacles.extend(closed.map(|(number, _)| format!("joint {number} has no room for errors")));
-    if !scene.certified {
-        obstacles.push("the bounds on D over the domain cannot be certified".to_string());
-    }
+    let obstacles = obstacles(stage, &scene, &own);
     if !obstacles.is_empty() {
         let help = "change the motion, the measure or the limits: gains cannot remove this obstacle";
         faults.push("control.design", format!("cannot be met: {}", obstacles.join("; ")), help);
@@ -105,6 +98,20 @@ pub(super) fn tune(stage: &Stage, request: &GainRequest) -> Result<Tuning, Error
     let own_width = domain.width();
     too_narrow(stage, &nearest, asked.as_deref(), own_width.as_deref(), &mut faults)?;
     Err(faults.into_error())
+}
+
+/// What no gains remove.
+fn obstacles(stage: &Stage, scene: &Scene, room: &[f64]) -> Vec<String> {
+    let super::DesignProblem { arm, domain, motion, .. } = *stage.problem;
+    let mut obstacles = outside(domain, motion, arm, &vec![0.0; arm.dof()]);
+    let taken = stage.feedforward.as_ref();
+    obstacles.extend(taken.map_or(Vec::new(), |taken| taken.beyond_limits(arm, &stage.coulomb)));
+    let closed = (1..).zip(room).filter(|(_, room)| **room <= 0.0);
+    obstacles.extend(closed.map(|(number, _)| format!("joint {number} has no room for errors")));
+    if !scene.certified {
+        obstacles.push("the bounds on D over the domain cannot be certified".to_string());
+    }
+    obstacles
 }
 
 /// Whether it is the torque of the first step alone that a candidate fails by.

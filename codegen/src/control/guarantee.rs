@@ -62,6 +62,17 @@ pub(super) struct Judgement {
     pub(super) guarantee: Guarantee,
 }
 
+/// The constant gain that is enough for the errors of `envelope`. Written with six digits, it is no larger than what chatter and
+/// period are judged with.
+fn fixed(load: &mut Load, envelope: &Envelope) -> Fixed {
+    load.gain.iter_mut().for_each(|gain| *gain = six_digits_up(*gain));
+    Fixed {
+        rho: load.gain.clone(),
+        position_error: envelope.position_error.clone(),
+        velocity_error: envelope.velocity_error.clone(),
+    }
+}
+
 pub(super) struct Parts<'a> {
     pub(super) problem: &'a DesignProblem<'a>,
     pub(super) gains: &'a super::Gains,
@@ -126,13 +137,7 @@ impl Parts<'_> {
         let mut load = closed_loop.load(&envelope.position_error, &envelope.velocity_error, &delta_c);
         let (rates, _) = closed_loop.rates(&envelope.position_error, &envelope.velocity_error);
         if self.constant {
-            // Written with six digits, the gain is no larger than what chatter and period are judged with.
-            load.gain.iter_mut().for_each(|gain| *gain = six_digits_up(*gain));
-            closed_loop.fixed = Some(Fixed {
-                rho: load.gain.clone(),
-                position_error: envelope.position_error.clone(),
-                velocity_error: envelope.velocity_error.clone(),
-            });
+            closed_loop.fixed = Some(fixed(&mut load, &envelope));
         }
         // Gains that hold no level of V are out of a comparison, whatever their period.
         let longest = if self.sketch && !settled {

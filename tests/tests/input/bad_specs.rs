@@ -11,6 +11,7 @@ mod model;
 mod motion;
 mod several;
 mod shape;
+mod single;
 mod snapshots;
 mod uncertainty;
 mod urdf;

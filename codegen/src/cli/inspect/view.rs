@@ -15,7 +15,7 @@ use crate::spec::MatrixSpec;
 /// `size` is that of the module, bytes.
 pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
     let (arm, lagrangian, reduced) = (generation.arm(), generation.lagrangian(), generation.reduced());
-    let (bounds, code, exact_code) = (generation.bounds(), generation.code(), generation.exact_code());
+    let (code, exact_code) = (generation.code(), generation.exact_code());
     let design = generation.design();
     let operations = Costs { reduced: code.operations(), exact: exact_code.operations() };
     let control = design.as_ref().map(|design| {
@@ -69,17 +69,7 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
         terms: lagrangian.terms(),
         selected: functions(lagrangian, reduced),
         simplified_arm: reduced.simplified_arm().map_or(&[], |simplified_arm| &simplified_arm.parameters),
-        bounds: BoundsView {
-            kind: "certified",
-            D: &bounds.d,
-            H: &bounds.h,
-            G: &bounds.g,
-            B: diagonal(&bounds.b),
-            C: design.as_ref().map(|design| design.delta_c.as_slice()),
-            worst_ratio: worst_ratio(lagrangian, generation.certificates()),
-            estimate: estimated(generation),
-            factor: by_factor(generation),
-        },
+        bounds: bounds_view(generation),
         torque_error: generation.torque().map(|torque| torque.error.clone()),
         peak_torque: generation.torque().map(|torque| torque.peak.clone()),
         torque_rates: generation.torque().map(|torque| rates(&torque.rates)),
@@ -90,10 +80,26 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
         verdict: generation.verdict(),
         operations,
         step_operations: step_costs(generation),
+        step_rounding: generation.rounding().map(|rounding| rounding.torque.as_slice()),
         size,
         control,
         guarantee,
         warnings: generation.warnings(),
+    }
+}
+
+fn bounds_view(generation: &Generation) -> BoundsView<'_> {
+    let bounds = generation.bounds();
+    BoundsView {
+        kind: "certified",
+        D: &bounds.d,
+        H: &bounds.h,
+        G: &bounds.g,
+        B: diagonal(&bounds.b),
+        C: generation.design().map(|design| design.delta_c.as_slice()),
+        worst_ratio: worst_ratio(generation.lagrangian(), generation.certificates()),
+        estimate: estimated(generation),
+        factor: by_factor(generation),
     }
 }
 
