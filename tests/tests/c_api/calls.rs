@@ -138,7 +138,8 @@ pub fn script<A: ControlStep<3, 1, Scalar = f64>, E: ControlStep<3, 0, Scalar = 
             }
             399 => {
                 assert_ne!(learnt, start, "it has learnt");
-                (adaptive.controller.reset(), exact.controller.reset());
+                adaptive.controller.reset();
+                exact.controller.reset();
                 adaptive.call(&mut script, 'x', "", "0".to_string());
                 exact.call(&mut script, 'x', "", "0".to_string());
             }
