@@ -20,6 +20,15 @@ fn main() {
         "step_switching",
         "step_constant",
         "step_exact",
+        "single_sign",
+        "single_adaptive",
+        "single_puma",
+        "single_panda",
+        "single_ur5",
+        "single_stanford",
+        "single_tight",
+        "single_csv",
+        "single_sinusoids",
     ];
     let config =
         specs.iter().fold(gramforge::Config::new(), |config, name| config.spec(format!("data/{name}.json")));

@@ -43,6 +43,12 @@ pub(crate) fn located(file: &Path, line: Option<usize>, field: &str) -> String {
     out
 }
 
+/// What is wrong, without the help: each field with its problem.
+pub(crate) fn problems(faults: &[Diagnostic]) -> String {
+    let said: Vec<String> = faults.iter().map(|fault| format!("{} {}", fault.field, fault.problem)).collect();
+    said.join("; ")
+}
+
 /// Collects faults so that a user sees all of them at once.
 #[derive(Clone, Debug)]
 pub struct Diagnostics {

@@ -7,8 +7,10 @@ mod expanded;
 mod generation;
 mod modelled;
 mod proved;
+mod replaced;
 mod sampled;
 mod setting;
+mod step_rounding;
 mod threads;
 mod verdict;
 
@@ -19,12 +21,13 @@ use certified::Certified;
 use designed::Designed;
 use expanded::Expanded;
 use modelled::Modelled;
+use replaced::Replaced;
 use sampled::Sampled;
 
 use crate::bounds::Effort;
 use crate::cache::Cache;
 use crate::check::{Checked, Extent, checked};
-use crate::error::Error;
+use crate::error::{Error, problems};
 use crate::load::Loaded;
 use crate::progress::{Progress, Silent};
 
@@ -44,7 +47,7 @@ struct Means<'a> {
 enum Wanted {
     /// The one that the specification asks for.
     Asked,
-    /// The exact one, since a step with the cheapest reduced one saves too little.
+    /// The exact one, to compare with or to replace the one that was asked for.
     Exact,
 }
 
@@ -55,24 +58,37 @@ enum Wanted {
 fn run(loaded: Loaded, extent: Extent, means: Means) -> Result<Generation, Error> {
     threads::check()?;
     let checked = checked(loaded.clone(), extent).map_err(|error| expanded::with_count(error, &loaded))?;
-    let mut designed = Designed::new(certified(checked, Wanted::Asked, means)?, means)?;
+    Ok(Generation::concluded(chosen(checked, means)?, means))
+}
+
+/// The controller about the model that the specification asks for, or about the exact one where that leaves the choice
+/// open and the reduced model is refused or saves too little.
+///
+/// # Errors
+/// Where the controller is refused; with the choice open that is what the exact model breaks: it asks least of the rest.
+fn chosen(checked: Checked, means: Means) -> Result<Designed, Error> {
     // The same stages once more; each is reported once.
     let quiet = Means { progress: &Silent, ..means };
-    let exact = |designed: &Designed| {
-        let checked = designed.certified.checked.clone();
-        Designed::new(certified(checked, Wanted::Exact, quiet)?, quiet)
+    let exact = |checked: &Checked| Designed::new(certified(checked.clone(), Wanted::Exact, quiet)?, quiet);
+    let asked = certified(checked, Wanted::Asked, means)?;
+    let (checked, open) = (asked.checked.clone(), asked.is_chosen_reduced());
+    let mut designed = match Designed::new(asked, means) {
+        Err(Error::Input(faults)) if open => {
+            return Ok(Designed { replaced: Some(Replaced::Refused(problems(&faults))), ..exact(&checked)? });
+        }
+        designed => designed?,
     };
     let mut twin = None;
     if designed.needs_twin() {
         // Where no exact controller can be had, there is no step to compare with.
-        twin = exact(&designed).ok();
+        twin = exact(&checked).ok();
         designed.exact_step = twin.as_ref().and_then(|twin| twin.step.clone());
     }
-    if let Some(saving) = designed.too_small() {
-        let twin = twin.map_or_else(|| exact(&designed), Ok)?;
-        designed = Designed { not_worth: Some(saving), ..twin };
+    if let Some(saving) = designed.saving().filter(|saving| open && !saving.pays()) {
+        let twin = twin.map_or_else(|| exact(&checked), Ok)?;
+        designed = Designed { replaced: Some(Replaced::SavesTooLittle(saving)), ..twin };
     }
-    Ok(Generation::concluded(designed, means))
+    Ok(designed)
 }
 
 /// The stages before the controller.

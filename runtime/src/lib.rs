@@ -87,6 +87,8 @@ pub use law::{
 };
 pub use model::{Bounds, Model};
 pub use real::Real;
-pub use reference::{Desired, QuinticReference, Reference, SinusoidReference, SplineReference};
+pub use reference::{
+    Desired, QuinticReference, Reference, SinusoidReference, SplineReference, TickReference,
+};
 pub use regression::{AdaptiveModel, Regression};
 pub use step::{ControlStep, StepController};

@@ -28,6 +28,14 @@ pub trait Real:
     const ONE: Self;
     /// The nearest value to `x`.
     fn from_f64(x: f64) -> Self;
+    /// The nearest value to `x`; of f32 without f64 on the way.
+    fn from_u32(x: u32) -> Self {
+        Self::from_f64(f64::from(x))
+    }
+    /// The nearest value to `x`; of f32 without f64 on the way.
+    fn from_i32(x: i32) -> Self {
+        Self::from_f64(f64::from(x))
+    }
     /// The value as f64, exact.
     fn to_f64(self) -> f64;
     /// (sin x, cos x), x in rad.
@@ -46,6 +54,12 @@ macro_rules! real {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             fn from_f64(x: f64) -> Self {
+                x as $t
+            }
+            fn from_u32(x: u32) -> Self {
+                x as $t
+            }
+            fn from_i32(x: i32) -> Self {
                 x as $t
             }
             fn to_f64(self) -> f64 {

@@ -209,7 +209,7 @@ def main():
         print(f"measuring {arm.name}", flush=True)
         joints = Arm(arm.joints(BUILD / "joints"))
         result["arms"][arm.name] = compared(joints, natives, trigs, made)
-        if step.kinds(arm) and (rows := step.compared(arm, joints.n, trigs, casadi_models(natives))):
+        if step.kinds(arm) and (rows := step.compared(arm, joints.n, trigs, casadi_models(natives), made)):
             result["steps"][arm.name] = rows
     measured = [arm for arm in REDUCED if arm in titles]
     result["reduced"] = {arm: reduced(arm, trigs, made, result["arms"][arm]) for arm in measured}

@@ -29,7 +29,10 @@ class Program:
         # With lazy binding the first call would count the dynamic linker's work.
         environment = os.environ | {"LD_BIND_NOW": "1"}
         done = run([*callgrind, f"--toggle-collect={self.toggle}", *self.command, "count"], env=environment)
-        return int(re.search(r"Collected : (\d+)", done.stderr).group(1)) / states
+        collected = int(re.search(r"Collected : (\d+)", done.stderr).group(1))
+        if collected == 0:
+            raise SystemExit(f"{' '.join(self.command)}: no function {self.toggle} was called, so nothing was counted")
+        return collected / states
 
     def code_bytes(self):
         """Machine code of the functions that count, without constants and the sine's code; None for a library."""

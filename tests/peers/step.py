@@ -70,9 +70,9 @@ def by_hand(arm, model, folder):
     return program
 
 
-def compared(arm, joints, trigs, peers):
+def compared(arm, joints, trigs, peers, made):
     """Rows of the arm's table, none where the hand-written law is not the arm's; `peers` has the titles of CasADi's models
-    and the names of their objects."""
+    and the names of their objects, `made` what the generator said of each module."""
     periods, binary = BUILD / f"{arm.name}.periods", BUILD / "gramforge/release/step"
     periods.write_text(states(arm))
     folder, programs = constants(arm, binary), []
@@ -81,6 +81,9 @@ def compared(arm, joints, trigs, peers):
     for name, _ in kinds(arm):
         exact = name == f"{arm.name}_step"
         for trig in trigs:
+            # Where reducing does not pay, the module is the exact one; its code may even be merged with that.
+            if not exact and made[name, trig]["operations"] == made[name, trig]["exact_operations"]:
+                continue
             title = f"Gramforge {'exact' if exact else f'within {REDUCED_TO} %'}, {trig}"
             module = f"{name}_{trig}"
             programs.append((title, exact, Program([binary, module, periods], toggle=f"step::{module}::measured*")))

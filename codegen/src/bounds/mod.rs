@@ -7,6 +7,7 @@
 
 mod ascent;
 mod branch;
+mod code_rounding;
 mod composite;
 mod effort;
 mod entries;
@@ -36,6 +37,7 @@ mod torque_scale;
 mod trig;
 mod weighted;
 
+pub(crate) use code_rounding::{Instant, code_rounding, largest};
 pub use effort::Effort;
 pub use entries::{Bounds, six_digits_up};
 pub use estimate::estimate;

@@ -1,16 +1,17 @@
 //! What an emitted model leaves out: certificates, bounds, torque.
 
 use super::{
-    Bounds, Certificate, Effort, Met, Rates, Torque, TorqueScale, certified_telling, position_bound,
-    published, recursion, recursion_rounding, torque_error, vanishing, with_sines,
+    Bounds, Certificate, Effort, Met, Rates, Torque, TorqueScale, certified_telling, code_rounding,
+    position_bound, published, recursion, recursion_rounding, torque_error, vanishing, with_sines,
 };
 use crate::arm::{Arm, Uncertainty};
 use crate::domain::Domain;
+use crate::graph::Graph;
 use crate::lagrangian::Lagrangian;
 use crate::load::Loaded;
 use crate::progress::Progress;
 use crate::reduction::Reduced;
-use crate::spec::Spec;
+use crate::spec::{ScalarSpec, Spec};
 use crate::torque::Form;
 use crate::trig::Trig;
 
@@ -27,6 +28,8 @@ pub(crate) struct ModelError<'a> {
     pub reduced: &'a Reduced,
     pub domain: &'a Domain,
     pub form: Form,
+    /// The passivity torque.
+    pub code: &'a Graph,
     pub sines: &'a Trig,
     /// What rounding the arm's rotations has changed.
     pub angles: Option<&'a Bounds>,
@@ -83,14 +86,28 @@ impl ModelError<'_> {
         let known = self.uncertainty.parameters.is_empty();
         let fraction = self.loaded.spec.model.tolerance().filter(|_| known);
         let proved = fraction.map(|fraction| scale.limits(fraction));
-        let error = self.error(certificates, bounds, &scale.rates, proved);
-        let rounding = self.rounding().torque(&scale.rates);
+        let single = self.single_rounding(&scale.rates);
+        let error = plus(self.error(certificates, bounds, &scale.rates, proved), single.as_deref());
+        let rounding = plus(self.rounding().torque(&scale.rates), single.as_deref());
         Torque { error, peak: scale.peak, rounding, rates: scale.rates }
     }
 
     /// The same at the rates that a law meets.
     pub fn met(&self, certificates: &[Certificate], bounds: &Bounds, rates: &Rates) -> Met {
-        Met { error: self.error(certificates, bounds, rates, None), rates: rates.clone() }
+        let error = self.torque_error(certificates, bounds, rates);
+        Met { error: plus(error, self.single_rounding(rates).as_deref()), rates: rates.clone() }
+    }
+
+    /// The same without what f32 code rounds by.
+    pub fn torque_error(&self, certificates: &[Certificate], bounds: &Bounds, rates: &Rates) -> Vec<f64> {
+        self.error(certificates, bounds, rates, None)
+    }
+
+    /// What f32 code rounds by, by joint, N·m or N, for rates up to `rates`; `None` for f64 code, whose rounding is part of every
+    /// other bound.
+    fn single_rounding(&self, rates: &Rates) -> Option<Vec<f64>> {
+        let scalar = self.loaded.spec.emit.scalar;
+        (scalar == ScalarSpec::F32).then(|| code_rounding(self.code, self.domain, rates, scalar.format()))
     }
 
     /// Bounds by joint, N·m or N, for rates up to `rates`; what the choice of a model has `proved`, perhaps with more work,
@@ -149,4 +166,12 @@ impl ModelError<'_> {
             Form::Expanded | Form::Sparse => bounds,
         }
     }
+}
+
+/// The sum by joint, rounded up.
+fn plus(mut error: Vec<f64>, more: Option<&[f64]>) -> Vec<f64> {
+    for (error, more) in error.iter_mut().zip(more.into_iter().flatten()) {
+        *error = (*error + more).next_up();
+    }
+    error
 }

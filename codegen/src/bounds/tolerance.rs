@@ -34,7 +34,7 @@ impl ModelError<'_> {
                  is {} of it",
                 self.loaded.path.display(),
                 short(tolerance),
-                if self.sines.rounds() { " in f64" } else { " and the error of the sines" },
+                &if self.sines.rounds() { format!(" in {}", self.loaded.spec.emit.scalar.name()) } else { " and the error of the sines".to_string() },
                 printed_up(worst.fraction)
             ));
         }

@@ -1,9 +1,13 @@
 //! The torques and rates that torque errors are compared with.
 
-use super::{Bounds, Rates, largest_growth, published, recursion_rounding, workspace_peak_torque};
+use super::{
+    Bounds, Rates, code_rounding, largest_growth, published, recursion_rounding, workspace_peak_torque,
+};
 use crate::arm::Arm;
 use crate::domain::Domain;
+use crate::graph::Graph;
 use crate::lagrangian::Lagrangian;
+use crate::numerics::rounded::Format;
 use crate::reduction;
 use crate::trig::Trig;
 
@@ -24,6 +28,8 @@ pub struct TorqueScale {
 pub(crate) const SCATTERED: f64 = 2.0;
 /// Reduced coefficients may be larger than the exact ones, and so may what they round by.
 const LARGER: f64 = 4.0;
+/// What the code of a model rounds by at most, of what the exact one rounds by.
+const CODE: f64 = 2.0;
 /// Part of a tolerance that is kept for the roundings of adding up what is left out.
 const SPARE: f64 = 1e-9;
 
@@ -64,6 +70,17 @@ impl TorqueScale {
             let multipliers = self.rates.multipliers(lagrangian, i);
             let terms: f64 = multipliers.iter().zip(&each).map(|(u, rounding)| u * rounding).sum();
             *reserve = terms + 2.0 * recursion[i] + turned.as_ref().map_or(0.0, |turned| turned[i]);
+        }
+        self
+    }
+
+    /// The same, with what the code of a model may round by, where its number type rounds more than the bounds allow for. The
+    /// code of the model to come is not known yet: it is taken to round by no more than twice what the `exact` one does.
+    #[must_use]
+    pub fn reserving_code(mut self, exact: &Graph, domain: &Domain, format: Format) -> Self {
+        let code = code_rounding(exact, domain, &self.rates, format);
+        for (reserve, code) in self.reserve.iter_mut().zip(code) {
+            *reserve += CODE * code;
         }
         self
     }

@@ -18,7 +18,7 @@ use crate::error::{Diagnostic, Diagnostics, Error};
 use crate::load::{Draft, Loaded, draft};
 use crate::motion::Motion;
 use crate::number::scientific;
-use crate::spec::{DictionarySpec, LawSpec, ModelSpec, Spec, TrigSpec};
+use crate::spec::{DictionarySpec, LawCodeSpec, LawSpec, ModelSpec, ScalarSpec, Spec, TrigSpec};
 use crate::trig::{COARSEST, FINEST};
 
 pub use checked::{Checked, Control, GainRequest, GainSource, InitialError};
@@ -142,6 +142,14 @@ fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Diagnostics) -> Option
         faults.push("emit.trig.table.error", format!("is {}", scientific(error)), help);
     }
     going_together(spec, faults);
+    if spec.emit.scalar == ScalarSpec::F32 && spec.emit.law == LawCodeSpec::Runtime && spec.control.is_some()
+    {
+        faults.push(
+            "emit.law",
+            "is `runtime`, but `emit.scalar` is `f32`: what f32 rounds by is proved of the step that is written out",
+            "leave it out, or write `emit.scalar` as \"f64\"",
+        );
+    }
     c_api::check(spec, faults);
     if let Some(duration) = spec.simulation.duration.filter(|v| *v <= 0.0) {
         faults.push(

@@ -10,8 +10,8 @@ use super::{json, show_warnings};
 use crate::error::Error;
 use crate::output::write_if_changed;
 use crate::progress::Stage;
-use crate::report::{metrics_table, plot};
-use crate::simulate::{Metrics, Scenario, simulate};
+use crate::report::{chatter_table, metrics_table, plot};
+use crate::simulate::{Chatter, Metrics, Scenario, chatter, simulate};
 use crate::spec::LawSpec;
 
 /// Simulates the exact arm under equation (16) with the exact model, and under the specification's law.
@@ -33,6 +33,7 @@ struct Summary<'a> {
     law: &'a Metrics,
     law_kind: LawSpec,
     boundary_layer: &'a Option<Vec<f64>>,
+    measured_chatter: &'a [Chatter],
 }
 
 impl Simulate {
@@ -40,22 +41,29 @@ impl Simulate {
         let generation = generated(&self.spec)?;
         show_warnings(generation.warnings());
         let scenario = Scenario::of(&generation)?;
-        let comparison = watched(|progress| {
+        let (comparison, chatter) = watched(|progress| {
             let _stage = Stage::new(progress, "simulation", 1);
-            simulate(&scenario)
+            let comparison = simulate(&scenario)?;
+            let chatter = chatter(&generation, &comparison)?;
+            Ok::<_, Error>((comparison, chatter))
         })?;
         let joints = &generation.arm().joints;
         if let Some(path) = &self.plot {
             write_if_changed(path, &plot(&comparison, joints)?)?;
         }
         if !self.json {
-            return Ok(metrics_table(&comparison, joints));
+            let mut out = metrics_table(&comparison, joints);
+            if !chatter.is_empty() {
+                out += &format!("\n{}", chatter_table(&chatter, comparison.exact.relative_step()));
+            }
+            return Ok(out);
         }
         json(&Summary {
             exact: &comparison.exact.metrics,
             law: &comparison.law.metrics,
             law_kind: comparison.law_kind,
             boundary_layer: &comparison.boundary_layer,
+            measured_chatter: &chatter,
         })
     }
 }

@@ -35,6 +35,8 @@ pub(super) struct Load {
     pub(super) taught: Vec<f64>,
     /// What rounding does to the torque, N·m or N: no switching gain outweighs it.
     pub(super) rounding: Vec<f64>,
+    /// The largest |s| by joint, rad/s or m/s, of which a law that switches by the sign may take the wrong one.
+    pub(super) wrong_sign: Vec<f64>,
     /// The part of zᵀMz that the Euler steps of the learning take back.
     step: f64,
 }
@@ -150,6 +152,7 @@ impl ClosedLoop<'_> {
         };
         Load {
             rounding: self.rounding.torque(&working),
+            wrong_sign: self.rounding.wrong_sign(self.gains, &rates),
             gain,
             taught: learning.map_or(vec![0.0; n], |learning| learning.torque(&rates)),
             step: learning
@@ -193,7 +196,7 @@ impl ClosedLoop<'_> {
     /// A joint inside its layer teaches nothing, so there s_i(Yθ_e)_i stays: with y = sup|Yθ_e|_i the layer costs
     /// max (ρ + y)|s| − ρs²/φ over |s| ≤ φ, which is φ(ρ + y)²/4ρ, or φy where y > ρ.
     pub(super) fn ultimate_bound(&self, load: &Load, chatter: bool) -> f64 {
-        let Load { gain, taught, rounding, step } = load;
+        let Load { gain, taught, rounding, step, .. } = load;
         let mut c = 0.0;
         let mut h: Vec<f64> = self.lag.iter().zip(rounding).map(|(lag, more)| lag + more).collect();
         match (self.law, self.layer) {
@@ -210,8 +213,9 @@ impl ClosedLoop<'_> {
                 };
                 c = gain.iter().zip(phi).zip(taught).map(cost).sum::<f64>();
             }
-            (_, None) if chatter => c = self.chatter(gain),
-            (_, None) => {}
+            (_, None) => {
+                c = self.switching_loss(load) + if chatter { self.chatter(gain) } else { 0.0 };
+            }
         }
         let row = |i: usize| h.iter().enumerate().map(|(j, h)| self.form.inverse[(i, j)] * h).sum::<f64>();
         let eta = libm::sqrt(h.iter().enumerate().map(|(i, h)| h * row(i)).sum::<f64>());
@@ -221,6 +225,12 @@ impl ClosedLoop<'_> {
         }
         let x = 0.5 * (eta + libm::sqrt(eta * eta + 4.0 * c * left)) / left;
         0.5 * self.inertia.time * x * x
+    }
+
+    /// The power that rounding may make a sign function put into V, W: a torque of the wrong sign puts in what it should take
+    /// out.
+    pub(super) fn switching_loss(&self, load: &Load) -> f64 {
+        self.switched(&load.gain).iter().zip(&load.wrong_sign).map(|(rho, s)| 2.0 * rho * s).sum()
     }
 
     /// The power that a held sign function may put into V, W: it is wrong for at most a period, in which it moves s_j

@@ -47,6 +47,9 @@ use crate::progress::{self, Progress};
 use crate::reduction::Regression;
 use feedforward::Feedforward;
 use rounding::Rounding;
+pub(crate) use rounding::SingleRounding;
+pub use step::StepRounding;
+pub(crate) use step::{StepStates, Surroundings, step_rounding};
 
 /// What a law is designed from.
 #[derive(Clone, Copy)]
@@ -67,6 +70,8 @@ pub struct DesignProblem<'a> {
     pub bounds: &'a Bounds,
     /// What the model's code rounds by in f64, beside what `bounds` hold of it.
     pub rounding: &'a Bounds,
+    /// What a step in f32 rounds by; `None` in f64.
+    pub single: Option<&'a SingleRounding>,
     /// Where the bounds hold.
     pub domain: &'a Domain,
     /// The desired motion.

@@ -116,7 +116,8 @@ impl ClosedLoop<'_> {
             };
             Share { g: 0.0, k: self.gains.damping[i][i], b, rho, phi }
         };
-        let c = if robust && self.layer.is_none() { self.chatter(rho) } else { 0.0 };
+        let c =
+            if robust && self.layer.is_none() { self.chatter(rho) + self.switching_loss(load) } else { 0.0 };
         ((0..rho.len()).map(share).collect(), c)
     }
 

@@ -32,6 +32,14 @@ impl Domain {
         }
     }
 
+    /// The motion as it is held; `None` for a workspace.
+    pub(crate) fn motion_shared(&self) -> Option<Arc<Motion>> {
+        match self {
+            Self::Path(motion) | Self::Tube(motion, _) => Some(Arc::clone(motion)),
+            Self::Workspace(_) => None,
+        }
+    }
+
     /// The half-width around the motion by joint, rad or m; `None` for a workspace.
     pub fn width(&self) -> Option<Vec<f64>> {
         match self {

@@ -7,23 +7,16 @@ use super::literal::{Numbers, Rounding, count};
 use super::{Module, constant, docs, spaced, unused};
 use crate::control::{Adaptation, Design, RobustGain};
 use crate::error::Error;
-use crate::motion::Motion;
 use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec};
 
 pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, Error> {
     let n = count(module.arm.dof());
     let (unused, constant) = (unused(), constant());
-    let reference =
-        module.motion.map(|motion| reference(motion, module.numbers())).transpose()?.map(|(kind, value)| {
-            quote! {
-                /// The desired motion.
-                #constant
-                pub const REFERENCE: #kind = #value;
-            }
-        });
+    let reference = super::reference::reference(module)?;
     let Some(design) = module.design else { return Ok(quote!(#reference)) };
     let numbers = module.numbers();
     let scalar = numbers.name();
+    let rounding = super::rounding::constants(module)?;
     let settings = settings(design, numbers)?;
     let (law_type, law) = law(design, numbers)?;
     let promised = &design.guarantee;
@@ -70,6 +63,7 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
         #constant
         pub const LAW: ::gramforge_runtime::#law_type = #law;
         #reference
+        #rounding
 
         #made
     })
@@ -167,51 +161,6 @@ fn law(design: &Design, numbers: Numbers) -> Result<(TokenStream, TokenStream), 
                 coulomb: #coulomb,
             });
             (quote!(TightLaw<#scalar, #n>), law)
-        }
-    })
-}
-
-/// Type and value of the reference.
-fn reference(motion: &Motion, numbers: Numbers) -> Result<(TokenStream, TokenStream), Error> {
-    let n = count(motion.dof());
-    let (scalar, duration) = (numbers.name(), numbers.float(motion.duration())?);
-    let path = quote!(::gramforge_runtime::reference);
-    Ok(match motion {
-        Motion::Quintic { from, to, .. } => {
-            let (from, to) = (numbers.vector(from)?, numbers.vector(to)?);
-            (
-                quote!(#path::QuinticReference<#scalar, #n>),
-                quote!(#path::QuinticReference { from: #from, to: #to, duration: #duration }),
-            )
-        }
-        Motion::Spline(spline) => {
-            let segment = |(start, piece): (&f64, &Vec<[f64; 4]>)| -> Result<TokenStream, Error> {
-                let (start, coefficients) = (numbers.float(*start)?, numbers.matrix(piece)?);
-                Ok(quote!(#path::SplineSegment { start: #start, coefficients: #coefficients }))
-            };
-            let segments =
-                spaced(spline.times.iter().zip(&spline.pieces).map(segment).collect::<Result<Vec<_>, _>>()?);
-            (
-                quote!(#path::SplineReference<'static, #scalar, #n>),
-                quote!(#path::SplineReference { segments: &#segments, duration: #duration }),
-            )
-        }
-        Motion::Sinusoids { offset, terms, .. } => {
-            let offset = numbers.vector(offset)?;
-            let term = |s: &gramforge_runtime::reference::Sinusoid<f64>| -> Result<TokenStream, Error> {
-                let (amplitude, frequency, phase) =
-                    (numbers.float(s.amplitude)?, numbers.float(s.frequency)?, numbers.float(s.phase)?);
-                Ok(quote!(#path::Sinusoid { amplitude: #amplitude, frequency: #frequency, phase: #phase }))
-            };
-            let joint = |terms: &Vec<_>| -> Result<TokenStream, Error> {
-                let terms = spaced(terms.iter().map(term).collect::<Result<Vec<_>, _>>()?);
-                Ok(quote!(&#terms))
-            };
-            let terms = spaced(terms.iter().map(joint).collect::<Result<Vec<_>, _>>()?);
-            (
-                quote!(#path::SinusoidReference<'static, #scalar, #n>),
-                quote!(#path::SinusoidReference { offset: #offset, terms: #terms, duration: #duration }),
-            )
         }
     })
 }

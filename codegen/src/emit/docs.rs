@@ -6,6 +6,7 @@ use crate::control::Guarantee;
 use crate::domain::Domain;
 use crate::lagrangian::{Coordinates, Lagrangian};
 use crate::reduction::{Kind as ModelKind, Reduced};
+use crate::spec::ScalarSpec;
 use crate::text::escaped;
 use crate::trig::{Kind, Trig};
 
@@ -48,7 +49,7 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     lines.push(format!(" One passivity torque: {}.", cost(&operations)));
     lines.push(String::new());
     let sines = &module.model.code.sines;
-    if let Some(line) = taken(sines) {
+    if let Some(line) = taken(sines, module.scalar) {
         lines.extend([line, String::new()]);
     }
     lines.push(if module.model.reduced.is_exact() {
@@ -91,7 +92,11 @@ fn left_out(module: &Module) -> String {
     let reduced = !module.model.reduced.is_exact();
     if reduced {
         format!(
-            " Domain of the bounds: {domain}. The bounds are certified and include rounding in f64. {}{}",
+            " Domain of the bounds: {domain}. The bounds are certified{} {}{}",
+            match module.scalar {
+                ScalarSpec::F64 => " and include rounding in f64.",
+                ScalarSpec::F32 => ". What f32 rounds by is part of the torque error.",
+            },
             not_simplified(module),
             if sines.rounds() { "" } else { " The error of the sines is part of every bound." }
         )
@@ -105,10 +110,14 @@ fn left_out(module: &Module) -> String {
     } else if module.turned {
         format!(
             " No term is left out. The bounds come from rounding the arm's rotations. Domain of the bounds: {domain}. Rounding in \
-             f64 is part of the torque error."
+             {} is part of the torque error.",
+            module.scalar.name()
         )
     } else {
-        " No term is left out, so the bounds on D, h and G are zero. Rounding in f64 is part of the torque error.".to_string()
+        format!(
+            " No term is left out, so the bounds on D, h and G are zero. Rounding in {} is part of the torque error.",
+            module.scalar.name()
+        )
     }
 }
 
@@ -176,7 +185,7 @@ fn uncertain(module: &Module) -> Vec<String> {
 }
 
 /// How sines are taken, where it is not the default.
-fn taken(sines: &Trig) -> Option<String> {
+fn taken(sines: &Trig, scalar: ScalarSpec) -> Option<String> {
     let way = match sines.kind {
         Kind::Libm => return None,
         Kind::Polynomial => "the runtime's polynomials".to_string(),
@@ -186,7 +195,7 @@ fn taken(sines: &Trig) -> Option<String> {
             return Some(format!(" Sines and cosines: {way}; the bounds suppose errors within 1 ulp."));
         }
     };
-    let error = printed_up(sines.error);
+    let error = printed_up(if scalar == ScalarSpec::F32 { sines.single_error } else { sines.error });
     Some(format!(
         " Sines and cosines: {way}, off by at most {error} up to {:.0} rad.",
         libm::floor(sines.range)

@@ -6,7 +6,9 @@ mod controller;
 mod docs;
 mod literal;
 mod names;
+mod reference;
 mod regression;
+mod rounding;
 mod statements;
 mod step;
 mod trig;
@@ -26,7 +28,7 @@ use quote::quote;
 
 use crate::arm::{Arm, Uncertainty};
 use crate::bounds::{Bounds, Met, Torque};
-use crate::control::{Design, StepGraph};
+use crate::control::{Design, StepGraph, StepRounding};
 use crate::domain::Domain;
 use crate::error::Error;
 use crate::graph::Graph;
@@ -73,6 +75,8 @@ pub struct Module<'a> {
     pub design: Option<&'a Design>,
     /// Its step, where it is written out.
     pub step: Option<&'a StepGraph>,
+    /// What the step rounds by.
+    pub rounding: Option<&'a StepRounding>,
     /// Number type of the code.
     pub scalar: ScalarSpec,
 }

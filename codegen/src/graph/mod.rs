@@ -8,6 +8,7 @@ mod factor;
 mod interpret;
 mod inverse;
 mod node;
+mod rounding;
 mod slopes;
 #[cfg(test)]
 mod tests;
@@ -16,6 +17,7 @@ pub use build::{Builder, Leaf};
 pub use count::{Operations, TRIG_PAIR};
 pub use expr::Expr;
 pub use node::{Name, Node, NodeId, Variable};
+pub use rounding::Inputs;
 use serde::{Deserialize, Serialize};
 
 use crate::lagrangian::MAX_JOINTS;

@@ -5,6 +5,7 @@ mod enclosure;
 mod limits;
 mod span;
 mod spline;
+mod ticks;
 
 use gramforge_runtime::reference::{Sinusoid, cubic, quintic, sinusoids};
 
@@ -16,6 +17,7 @@ pub use enclosure::PositionRange;
 pub use limits::check_limits;
 pub use span::Span;
 pub use spline::Spline;
+pub(crate) use ticks::{Piece, ReferenceError, Term, Ticks};
 
 /// Longest motion, s: four months.
 pub(crate) const LONGEST: f64 = 1e7;

@@ -6,6 +6,7 @@ pub(crate) mod interval;
 pub(crate) mod linalg;
 pub mod low_discrepancy;
 pub(crate) mod lu;
+pub(crate) mod rounded;
 pub(crate) mod vector;
 
 pub use interval::Interval;

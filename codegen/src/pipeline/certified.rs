@@ -106,6 +106,11 @@ impl Certified {
         Self { setting, proved, checked }
     }
 
+    /// Whether the specification leaves the choice of the model open and a reduced one was chosen.
+    pub fn is_chosen_reduced(&self) -> bool {
+        self.checked.loaded.spec.model.tolerance().is_some() && !self.proved.model.reduced.is_exact()
+    }
+
     /// What bounds follow from.
     pub fn error(&self) -> ModelError<'_> {
         self.setting.error(&self.checked, &self.proved.lagrangian, &self.proved.model)

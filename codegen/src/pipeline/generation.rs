@@ -9,7 +9,7 @@ use crate::arm::{Arm, Uncertainty};
 use crate::bounds::{Bounds, Certificate, Effort, Met, Torque};
 use crate::cache::Cache;
 use crate::check::{Checked, Control, Extent, read};
-use crate::control::{Design, StepGraph};
+use crate::control::{Design, StepGraph, StepRounding};
 use crate::domain::Domain;
 use crate::emit::{CFile, Module, c_interface, emit};
 use crate::error::Error;
@@ -130,8 +130,17 @@ impl Generation {
             motion: self.motion(),
             design: self.design(),
             step: self.step().filter(|_| self.spec().emit.law == LawCodeSpec::Inline),
+            rounding: self.rounding(),
             scalar: self.spec().emit.scalar,
         })
+    }
+
+    /// The controller with these gains and a constant robust gain, or the law's own bracket.
+    ///
+    /// # Errors
+    /// [`Error::Input`] where there is no controller, or where it is refused with that robust gain.
+    pub(crate) fn design_with(&self, constant: bool) -> Result<Design, Error> {
+        self.designed.with_other_gain(constant)
     }
 
     fn checked(&self) -> &Checked {
@@ -248,6 +257,11 @@ impl Generation {
     /// The controller's step, law and model as one graph; `None` without a controller.
     pub fn step(&self) -> Option<&StepGraph> {
         self.designed.step.as_ref()
+    }
+
+    /// What the step rounds by in its number type; `None` without a controller.
+    pub fn rounding(&self) -> Option<&StepRounding> {
+        self.designed.rounding.as_ref()
     }
 
     /// The step of the same law about the exact model; `None` without a controller, or for a law that learns.

@@ -2,6 +2,7 @@
 
 use super::sampled::Sampled;
 use super::{Means, Wanted, angles};
+use crate::bounds::TorqueScale;
 use crate::check::Checked;
 use crate::choose::{self, ToleranceRequest};
 use crate::error::{Diagnostics, Error};
@@ -10,7 +11,7 @@ use crate::lagrangian::Lagrangian;
 use crate::model::Model;
 use crate::progress::Stage;
 use crate::reduction::{self, Dictionary, Regression};
-use crate::spec::{DictionarySpec, LawSpec, ModelSpec, RefitSpec, Spec};
+use crate::spec::{DictionarySpec, LawSpec, ModelSpec, RefitSpec, ScalarSpec, Spec};
 use crate::torque::{self, Form, Regressor};
 
 /// The emitted model beside the exact one.
@@ -35,7 +36,8 @@ pub(super) struct Modelled {
 impl Modelled {
     /// # Errors
     /// [`Error::Input`] where a parameter overflows.
-    pub fn new(sampled: Sampled, wanted: Wanted, means: Means) -> Result<Self, Error> {
+    pub fn new(mut sampled: Sampled, wanted: Wanted, means: Means) -> Result<Self, Error> {
+        let scalar = sampled.expanded.checked.loaded.spec.emit.scalar;
         let checked = &sampled.expanded.checked;
         let (lagrangian, built) = (&sampled.expanded.lagrangian, &checked.built);
         let stage = Stage::new(means.progress, "reduction", 1);
@@ -43,6 +45,12 @@ impl Modelled {
             let _stage = Stage::new(means.progress, "exact code", 1);
             torque::exact(&built.arm, lagrangian)
         };
+        if scalar == ScalarSpec::F32 {
+            let setting = &sampled.setting;
+            let code = Graph { sines: setting.sines.clone(), ..exact.1.clone() };
+            let reserved = |scale: TorqueScale| scale.reserving_code(&code, &setting.turn, scalar.format());
+            sampled.scale = sampled.scale.map(reserved);
+        }
         let mut warnings = sampled.expanded.warnings.clone();
         warnings.extend(angles::advice(&checked.loaded, &built.arm, &built.given, &exact.1));
         let mut model = match wanted {

@@ -46,6 +46,7 @@ impl Setting {
             reduced: &model.reduced,
             domain: &self.turn,
             form: model.form,
+            code: &model.code,
             sines: &self.sines,
             angles: self.angles.as_ref(),
         }

@@ -1,7 +1,7 @@
 //! Whether the reduction pays.
 
 use super::Generation;
-use super::designed::Saving;
+use super::replaced::{Replaced, Saving};
 use crate::choose::why_exact;
 use crate::graph::Operations;
 
@@ -10,12 +10,14 @@ impl Generation {
     ///
     /// With a controller, whole control steps of the same law are compared, else the models; by [`Operations::cost`].
     pub fn verdict(&self) -> String {
-        if let Some(saving) = self.designed.not_worth {
-            let Saving { reduced, exact } = saving;
-            return format!(
-                "This is the exact model, since the cheapest reduced one that was found saves less than 5 %: a control step costs \
-                 {exact}, and {reduced} with that one ({COUNTED})."
-            );
+        match &self.designed.replaced {
+            Some(Replaced::SavesTooLittle(saving)) => return too_little(*saving),
+            Some(Replaced::Refused(why)) => {
+                return format!(
+                    "This is the exact model, since the controller is refused with the cheapest reduced one that was found: {why}."
+                );
+            }
+            None => {}
         }
         if self.reduced().is_exact() {
             let peak = self.torque().map(|torque| torque.peak.as_slice());
@@ -36,6 +38,14 @@ impl Generation {
 
 /// How steps are counted, for a person.
 const COUNTED: &str = "operations, a sine-cosine pair counted as 12 and a clamp as 2";
+
+fn too_little(saving: Saving) -> String {
+    let Saving { reduced, exact } = saving;
+    format!(
+        "This is the exact model, since the cheapest reduced one that was found saves less than 5 %: a control step costs \
+         {exact}, and {reduced} with that one ({COUNTED})."
+    )
+}
 
 fn of_steps(saving: Saving) -> String {
     let Saving { reduced, exact } = saving;

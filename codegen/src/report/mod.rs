@@ -12,7 +12,7 @@ pub(crate) use claims::largest_difference;
 pub use claims::{Claim, claims};
 pub use plot::plot;
 pub use reproduction::{Figures, figures};
-pub use table::{bounds_table, claims_table, metrics_table, operations_table};
+pub use table::{bounds_table, chatter_table, claims_table, metrics_table, operations_table};
 
 use crate::arm::JointKind;
 use crate::spec::LawSpec;

@@ -6,7 +6,8 @@ use crate::arm::{Joint, JointKind};
 use crate::bounds::Bounds;
 use crate::graph::Operations;
 use crate::number::short;
-use crate::simulate::{CONVERGED, Comparison, Metrics, Run};
+use crate::simulate::{CONVERGED, Chatter, Comparison, Metrics, Run};
+use crate::spec::RobustGainSpec;
 
 /// The metrics of both laws, joint by joint, then those of the whole arm.
 pub fn metrics_table(comparison: &Comparison, joints: &[Joint]) -> String {
@@ -42,6 +43,27 @@ pub fn metrics_table(comparison: &Comparison, joints: &[Joint]) -> String {
     whole("steps at a torque limit".to_string(), both(&|run| run.metrics.saturated_steps.to_string()));
     whole("steps with a fault".to_string(), both(&|run| run.metrics.faulted_steps.to_string()));
     whole("diverged at (s)".to_string(), both(&|run| time(run.metrics.diverged_at, "no")));
+    grid.render()
+}
+
+/// The chatter measured with each robust gain, beside the exact law, which switches nothing.
+pub fn chatter_table(measured: &[Chatter], exact: f64) -> String {
+    let heading = "measured chatter: mean torque step over peak torque, worst joint";
+    let mut grid = Grid::new(["robust gain", heading]);
+    for chatter in measured {
+        let name = match chatter.robust_gain {
+            RobustGainSpec::Constant => "constant",
+            RobustGainSpec::State | RobustGainSpec::Auto => "state",
+        };
+        let used = if chatter.used { " (this law's)" } else { "" };
+        let value = match (chatter.relative_step, &chatter.diverged_at, &chatter.refused) {
+            (Some(step), None, _) => short(step),
+            (Some(step), Some(at), _) => format!("{}, diverged at {at:.3} s", short(step)),
+            (None, _, why) => format!("refused: {}", why.as_deref().unwrap_or_default()),
+        };
+        grid.push([format!("{name}{used}"), value]);
+    }
+    grid.push(["none: law (16), exact model".to_string(), short(exact)]);
     grid.render()
 }
 

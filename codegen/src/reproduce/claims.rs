@@ -18,7 +18,7 @@ pub fn claims(cases: &Cases) -> Vec<Claim> {
     let (exact, law) = (&simplified.exact, &simplified.law);
     let apart = largest_difference(exact, law);
     let (better, full) = (law.metrics.rms_error_total, exact.metrics.rms_error_total);
-    let step = relative_step(law);
+    let step = law.relative_step();
     let mut out = vec![
         claim(
             format!("Fig. 2: exact and simplified trajectories cannot be told apart (never {CONVERGED} rad)"),
@@ -107,13 +107,6 @@ fn variation(run: &Run) -> f64 {
 /// What the law's torque varies beyond that of the exact one.
 fn excess(comparison: &Comparison) -> f64 {
     variation(&comparison.law) - variation(&comparison.exact)
-}
-
-/// The mean step of the torque beside its peak, of the worst joint.
-fn relative_step(run: &Run) -> f64 {
-    let steps = run.trace.time.len().max(2) as f64 - 1.0;
-    let pairs = run.metrics.torque_total_variation.iter().zip(&run.metrics.peak_torque);
-    pairs.map(|(variation, peak)| variation / steps / peak).fold(0.0, f64::max)
 }
 
 fn in_time(run: &Run) -> bool {

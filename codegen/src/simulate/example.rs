@@ -98,6 +98,7 @@ impl Example {
                 lagrangian: &lagrangian,
                 bounds: &bounds,
                 rounding: &rounding,
+                single: None,
                 domain: &tube,
                 motion: Some(&motion),
                 uncertainty: &Uncertainty::default(),
@@ -141,6 +142,7 @@ impl Example {
             regressor: None,
             initial: &self.initial,
             simulation: &self.simulation,
+            scalar: crate::spec::ScalarSpec::F64,
         })
     }
 }

@@ -3,6 +3,7 @@
 //! The plant is an exact arm, by default that of the specification; the law under test knows only the reduced model.
 
 mod array;
+mod chatter;
 #[cfg(test)]
 pub(crate) mod example;
 mod metrics;
@@ -18,6 +19,7 @@ use gramforge_runtime::simulate::JointState;
 use gramforge_runtime::{ConfigError, OnFault, Settings};
 use serde::Serialize;
 
+pub use chatter::{Chatter, chatter};
 pub use metrics::{CONVERGED, Metrics};
 pub use models::{ArmModel, GraphModel};
 pub use run::{Run, Trace};
@@ -36,7 +38,7 @@ use crate::graph::Graph;
 use crate::motion::Motion;
 use crate::number::scientific;
 use crate::pipeline::Generation;
-use crate::spec::{LawSpec, OnFaultSpec, SimulationSpec};
+use crate::spec::{LawSpec, OnFaultSpec, ScalarSpec, SimulationSpec};
 use crate::torque::Regressor;
 
 /// Runge–Kutta steps a control period, where the specification names none.
@@ -72,6 +74,8 @@ pub struct Scenario<'a> {
     pub initial: &'a InitialError,
     /// Duration and substeps.
     pub simulation: &'a SimulationSpec,
+    /// Number type of the controller.
+    pub scalar: ScalarSpec,
 }
 
 impl<'a> Scenario<'a> {
@@ -98,6 +102,7 @@ impl<'a> Scenario<'a> {
             regressor: generation.regressor(),
             initial: &control?.initial_error,
             simulation: &generation.spec().simulation,
+            scalar: generation.spec().emit.scalar,
         })
     }
 }
@@ -130,10 +135,31 @@ pub fn simulate(scenario: &Scenario) -> Result<Comparison, Error> {
 /// # Errors
 /// As [`simulate`].
 pub fn simulate_on(scenario: &Scenario, plant: &Arm) -> Result<Comparison, Error> {
+    let (exact, law) =
+        rayon::join(|| of_dimension(scenario, plant, false), || of_dimension(scenario, plant, true));
+    let design = scenario.design;
+    Ok(Comparison {
+        exact: exact?,
+        law: law?,
+        law_kind: design.law,
+        boundary_layer: design.boundary_layer.clone(),
+    })
+}
+
+/// The run of the scenario's own law alone.
+///
+/// # Errors
+/// As [`simulate`].
+pub(crate) fn simulate_law(scenario: &Scenario) -> Result<Run, Error> {
+    of_dimension(scenario, scenario.plant, true)
+}
+
+/// One run: of the scenario's own law, or of equation (16).
+fn of_dimension(scenario: &Scenario, plant: &Arm, own: bool) -> Result<Run, Error> {
     macro_rules! dispatch {
         ($($n:literal)*) => {
             match scenario.arm.dof() {
-                $($n => compare::<$n>(scenario, plant),)*
+                $($n => if own { law::<$n>(scenario, plant) } else { exact::<$n>(scenario, plant) },)*
                 n => Err(Error::Internal(format!("an arm of {n} joints passed its check"))),
             }
         };
@@ -141,12 +167,19 @@ pub fn simulate_on(scenario: &Scenario, plant: &Arm) -> Result<Comparison, Error
     dispatch!(1 2 3 4 5 6 7 8)
 }
 
-fn compare<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Comparison, Error> {
+/// Equation (16) with the exact model.
+fn exact<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Run, Error> {
+    let rig = rig::<N>(scenario, plant)?;
+    let model = GraphModel::<N>::exact(scenario.exact, scenario.arm)?;
+    let law = ExactLaw { gains: rig.gains, coulomb: vector("Coulomb friction", &scenario.design.coulomb)? };
+    rig.run(model, law, 0).map_err(|error| refused(scenario, &error))
+}
+
+/// The scenario's own law with the reduced model.
+fn law<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Run, Error> {
     let Scenario { file, arm, design, .. } = *scenario;
     let rig = rig::<N>(scenario, plant)?;
-    let own = GraphModel::<N>::exact(scenario.exact, arm)?;
     let model = GraphModel::<N>::new(scenario.code, scenario.bounds, arm)?;
-    let plain = ExactLaw { gains: rig.gains, coulomb: vector("Coulomb friction", &design.coulomb)? };
     let viscous: Vec<f64> = arm.joints.iter().map(|joint| joint.viscous_friction).collect();
     let step = design.step(&StepModel {
         code: scenario.code,
@@ -161,18 +194,13 @@ fn compare<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Compariso
         let problem = format!("are {learnt}; a simulation bears {MOST_LEARNT}");
         return Err(Error::input(file, "control.adaptation.parameters", problem, help));
     }
-    let law = StepLaw::new(&step, adaptation.map_or(&[], |adaptation| &adaptation.initial));
-    let (exact, law) = rayon::join(|| rig.run(own, plain, 0), || rig.run(model, law, learnt));
-    let refuse = |error: ConfigError| {
-        let help = "correct the number of the control or simulation section that it comes from";
-        Error::input(file, "control", error.to_string(), help)
-    };
-    Ok(Comparison {
-        exact: exact.map_err(refuse)?,
-        law: law.map_err(refuse)?,
-        law_kind: design.law,
-        boundary_layer: design.boundary_layer.clone(),
-    })
+    let law = StepLaw::new(&step, adaptation.map_or(&[], |adaptation| &adaptation.initial), scenario.scalar);
+    rig.run(model, law, learnt).map_err(|error| refused(scenario, &error))
+}
+
+fn refused(scenario: &Scenario, error: &ConfigError) -> Error {
+    let help = "correct the number of the control or simulation section that it comes from";
+    Error::input(scenario.file, "control", error.to_string(), help)
 }
 
 fn rig<'a, const N: usize>(scenario: &Scenario<'a>, plant: &'a Arm) -> Result<Rig<'a, N>, Error> {

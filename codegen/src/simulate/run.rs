@@ -51,6 +51,15 @@ pub struct Run {
     pub trace: Trace,
 }
 
+impl Run {
+    /// The mean of |τ_k+1 − τ_k| beside the largest |τ|, of the joint where that is most: what chatter raises.
+    pub fn relative_step(&self) -> f64 {
+        let steps = self.trace.time.len().max(2) as f64 - 1.0;
+        let pairs = self.metrics.torque_total_variation.iter().zip(&self.metrics.peak_torque);
+        pairs.map(|(variation, peak)| variation / steps / peak).fold(0.0, f64::max)
+    }
+}
+
 /// The plant, and how it is driven, whatever the law.
 pub(super) struct Rig<'a, const N: usize> {
     pub(super) plant: ArmModel<'a, N>,

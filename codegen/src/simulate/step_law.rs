@@ -8,6 +8,7 @@ use gramforge_runtime::law::{Law, Sample};
 use super::run::Memory;
 use crate::control::StepGraph;
 use crate::graph::Graph;
+use crate::spec::ScalarSpec;
 
 /// Most parameters of a law that learns in a simulation.
 pub const MOST_LEARNT: usize = 512;
@@ -17,6 +18,7 @@ pub(super) struct StepLaw {
     /// Outputs: the torques before they are limited, which the loop does, then the parameters after the period.
     code: Graph,
     learnt: usize,
+    scalar: ScalarSpec,
     initial: Learnt,
 }
 
@@ -32,12 +34,13 @@ impl Memory for Learnt {
 
 impl StepLaw {
     /// The law of `step`, whose parameters start at `initial`: at most [`MOST_LEARNT`].
-    pub(super) fn new(step: &StepGraph, initial: &[f64]) -> Self {
+    pub(super) fn new(step: &StepGraph, initial: &[f64], scalar: ScalarSpec) -> Self {
         let mut code = step.code.clone();
         code.outputs.splice(..step.joints, step.asked());
         Self {
             code,
             learnt: step.parameters,
+            scalar,
             initial: Learnt(from_fn(|k| initial.get(k).copied().unwrap_or(0.0))),
         }
     }
@@ -53,7 +56,17 @@ impl<M: Model<N, Scalar = f64>, const N: usize> Law<M, N> for StepLaw {
     fn torque(&self, _model: &M, state: &mut Learnt, sample: &Sample<f64, N>) -> [f64; N] {
         let desired = &sample.desired;
         let desired = [desired.q.as_slice(), &desired.qd, &desired.qdd];
-        let out = self.code.interpret_step(&sample.q, &sample.qd, desired, &state.0);
+        let out = match self.scalar {
+            ScalarSpec::F64 => self.code.interpret_step(&sample.q, &sample.qd, desired, &state.0),
+            ScalarSpec::F32 => {
+                let single = |x: &[f64]| -> Vec<f32> { x.iter().map(|&x| x as f32).collect() };
+                let [q_d, qd_d, qdd_d] = desired.map(single);
+                let desired = [q_d.as_slice(), &qd_d, &qdd_d];
+                let theta = single(state.0.get(..self.learnt).unwrap_or(&state.0));
+                let out = self.code.interpret_step(&single(&sample.q), &single(&sample.qd), desired, &theta);
+                out.into_iter().map(f64::from).collect()
+            }
+        };
         for (theta, &next) in state.0.iter_mut().zip(out.iter().skip(N).take(self.learnt)) {
             // NaN is not taken.
             if next.is_finite() {

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::numerics::rounded::Format;
+
 /// What the generated code looks like.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -97,11 +99,11 @@ impl ScalarSpec {
         }
     }
 
-    /// The largest relative error of one rounding.
-    pub fn unit(self) -> f64 {
+    /// How it rounds.
+    pub(crate) fn format(self) -> Format {
         match self {
-            Self::F64 => 0.5 * f64::EPSILON,
-            Self::F32 => 0.5 * f64::from(f32::EPSILON),
+            Self::F64 => Format::DOUBLE,
+            Self::F32 => Format::SINGLE,
         }
     }
 }

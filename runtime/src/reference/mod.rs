@@ -6,10 +6,12 @@
 mod quintic;
 mod sinusoids;
 mod spline;
+mod ticks;
 
-pub use quintic::{QuinticReference, quintic};
+pub use quintic::{QuinticReference, quintic, quintic_shape};
 pub use sinusoids::{Sinusoid, SinusoidReference, sinusoids};
 pub use spline::{SplineReference, SplineSegment, cubic};
+pub use ticks::{QuinticTicks, SinusoidTick, SinusoidTicks, SplineTick, SplineTicks, TickReference};
 
 use crate::Real;
 use crate::vector::first_not_finite;

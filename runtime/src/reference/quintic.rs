@@ -1,7 +1,5 @@
 //! The quintic polynomial that starts and ends at rest.
 
-use core::array::from_fn;
-
 use super::{Desired, Reference, check_duration, check_finite};
 use crate::{ConfigError, Real};
 
@@ -23,16 +21,21 @@ impl<T: Real, const N: usize> Reference<T, N> for QuinticReference<T, N> {
         self.duration
     }
 
-    #[inline]
+    #[inline(always)]
     fn at(&self, t: T) -> Desired<T, N> {
         // What the joints share is computed once.
         let shape = Shape::at(self.duration, t);
-        let span = |i: usize| self.to[i] - self.from[i];
-        Desired {
-            q: if shape.arrived { self.to } else { from_fn(|i| self.from[i] + span(i) * shape.position) },
-            qd: from_fn(|i| span(i) * shape.velocity),
-            qdd: from_fn(|i| span(i) * shape.acceleration),
+        let (mut q, mut qd, mut qdd) = (self.to, self.to, self.to);
+        // One loop: a compiler that is asked for small code keeps every loop that is written.
+        for i in 0..N {
+            let span = self.to[i] - self.from[i];
+            if !shape.arrived {
+                q[i] = self.from[i] + span * shape.position;
+            }
+            qd[i] = span * shape.velocity;
+            qdd[i] = span * shape.acceleration;
         }
+        Desired { q, qd, qdd }
     }
 
     fn check(&self) -> Result<(), ConfigError> {
@@ -47,6 +50,13 @@ impl<T: Real, const N: usize> Reference<T, N> for QuinticReference<T, N> {
 /// By Horner's rule; the error is a few units in the last place of |from| + |to|, and of the peak of q̇ and q̈.
 pub fn quintic<T: Real>(from: T, to: T, duration: T, t: T) -> (T, T, T) {
     Shape::at(duration, t).between(from, to)
+}
+
+/// Position, velocity and acceleration of a motion from 0 to 1 at x = t/duration within (0, 1); `rate` is 1/duration, 1/s.
+#[inline]
+pub fn quintic_shape<T: Real>(x: T, rate: T) -> (T, T, T) {
+    let Shape { position, velocity, acceleration, .. } = Shape::within(x, rate);
+    (position, velocity, acceleration)
 }
 
 /// The motion from 0 to 1.
@@ -67,10 +77,15 @@ impl<T: Real> Shape<T> {
         if t >= duration {
             return still(T::ONE, true);
         }
-        let c = T::from_f64;
         // A constant where the duration is one: no division is left.
         let rate = T::ONE / duration;
-        let x = t * rate;
+        Self::within(t * rate, rate)
+    }
+
+    /// At x = t/duration within (0, 1); `rate` is 1/duration.
+    #[inline]
+    fn within(x: T, rate: T) -> Self {
+        let c = T::from_f64;
         // The factored forms vanish exactly at x = 1 as well as at 0.
         let rest = T::ONE - x;
         Self {

@@ -1,6 +1,6 @@
 //! The loop about a step that is written out.
 
-use super::{ControlStep, StepTorque};
+use super::ControlStep;
 use crate::reference::Desired;
 use crate::vector::first_not_finite;
 use crate::{Command, Fault, OnFault, Quantity, Real, TorqueController};
@@ -50,30 +50,37 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
     /// When a measured or desired number or the computed torque is infinite or NaN. The [`Fault`] carries the safe
     /// command that must be applied instead; the controller goes on with the next good measurement. How many faults in
     /// a row are too many is for the caller to say.
-    #[inline]
+    // A firmware has one such call. Inside its loop nothing is copied, and what the loop does not read is not computed.
+    #[inline(always)]
     pub fn step(
         &mut self,
         q: &[S::Scalar; N],
         qd: &[S::Scalar; N],
         desired: &Desired<S::Scalar, N>,
     ) -> Result<Command<S::Scalar, N>, Fault<S::Scalar, N>> {
-        let StepTorque { asked, limited, unread, theta } = S::step(q, qd, desired, &self.theta);
+        let torque = S::step(q, qd, desired, &self.theta);
         // 0 times a finite number is 0, so one comparison does for all.
         let zero = S::Scalar::ZERO;
-        if asked.iter().fold(unread * zero, |sum, &x| sum + x * zero) != zero {
-            return Err(self.fault_of(q, qd, desired, &asked));
+        let mut sum = torque.unread * zero;
+        let mut saturated = [false; N];
+        for i in 0..N {
+            sum += torque.asked[i] * zero;
+            saturated[i] = torque.limited[i] != torque.asked[i];
         }
-        for (learnt, next) in self.theta.iter_mut().zip(theta) {
+        if sum != zero {
+            return Err(self.fault_of(q, qd, desired, &torque.asked));
+        }
+        for k in 0..P {
             // NaN is not taken.
-            if next.is_finite() {
-                *learnt = next;
+            if torque.theta[k].is_finite() {
+                self.theta[k] = torque.theta[k];
             }
         }
-        self.last_command = limited;
+        self.last_command = torque.limited;
         if S::SETTINGS.on_fault == OnFault::Gravity {
             (self.last_position, self.positioned) = (*q, true);
         }
-        Ok(Command { torque: limited, saturated: core::array::from_fn(|i| limited[i] != asked[i]) })
+        Ok(Command { torque: torque.limited, saturated })
     }
 
     /// The command of the fault policy as things stand, N·m: finite and within the limits.

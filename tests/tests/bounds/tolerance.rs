@@ -8,7 +8,6 @@ mod rounding;
 
 use std::path::{Path, PathBuf};
 
-use gramforge::Generation;
 use gramforge::internals::bounds::{Effort, Rates};
 use gramforge::internals::choose::why_exact;
 use gramforge::internals::control::RobustGain;
@@ -19,6 +18,7 @@ use gramforge::internals::progress::Silent;
 use gramforge::internals::reduction::{Dictionary, products};
 use gramforge::load::{Loaded, load};
 use gramforge::spec::{DictionarySpec, MeasureSpec, ModelSpec};
+use gramforge::{Error, Generation};
 
 use attack::{search, search_within};
 
@@ -200,6 +200,34 @@ fn a_larger_tolerance_never_costs_a_step_more() {
         }
         assert!(reduced > 0, "{name}: no tolerance pays");
     }
+}
+
+/// A controller that is refused with the reduced model alone is made about the exact one, and the verdict says why. What
+/// is refused with both is told as with the exact one.
+#[test]
+fn where_the_reduced_model_is_refused_the_exact_one_is_taken() {
+    let mut loaded = specified("ur5");
+    assert!(!within(&loaded, 0.1).reduced().is_exact());
+    let controlled = |loaded: &Loaded, model: ModelSpec| {
+        let mut loaded = loaded.clone();
+        loaded.spec.model = model;
+        Generation::with_effort(loaded, &Effort::default().boxes(500))
+    };
+    let chosen = |loaded: &Loaded| controlled(loaded, ModelSpec::Tolerance { torque: 0.1 });
+    let (made, exact) = (chosen(&loaded).unwrap(), controlled(&loaded, ModelSpec::Exact).unwrap());
+    assert!(made.reduced().is_exact());
+    assert_eq!(made.step().unwrap().code, exact.step().unwrap().code);
+    let verdict = made.verdict();
+    let why =
+        "the controller is refused with the cheapest reduced one that was found: control.period is 0.001 s";
+    assert!(verdict.contains(why) && verdict.ends_with(" s."), "{verdict}");
+    assert!(made.module().unwrap().contains(&verdict));
+
+    loaded.spec.control.as_mut().unwrap().period = Some(0.01);
+    let refusal = |made: Result<Generation, Error>| made.map(|_| "made").unwrap_err().to_string();
+    let told = refusal(chosen(&loaded));
+    assert_eq!(told, refusal(controlled(&loaded, ModelSpec::Exact)));
+    assert!(told.contains("control.period: is 0.01 s"), "{told}");
 }
 
 #[test]

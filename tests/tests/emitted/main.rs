@@ -17,5 +17,6 @@ macro_rules! included {
 mod adaptive;
 mod counts;
 mod generated_code;
+mod single;
 mod steps;
 mod trig;

@@ -5,6 +5,9 @@
 
 mod bracket;
 mod learning;
+mod rounding;
+
+pub use rounding::{StepRounding, StepStates, Surroundings, step_rounding};
 
 use super::{Adaptation, Gains};
 use crate::bounds::Bounds;

@@ -56,6 +56,37 @@ impl Scalar {
     }
 }
 
+/// What the desired motion is asked by.
+struct Instant {
+    reference: &'static str,
+    name: &'static str,
+    words: &'static str,
+    rust: &'static str,
+    c: &'static str,
+}
+
+impl Instant {
+    /// In f32 a time would lose its digits.
+    fn of(scalar: Scalar) -> Self {
+        match scalar.size {
+            4 => Self {
+                reference: "TickReference",
+                name: "tick",
+                words: "at the start of control period `tick`, counted from 0, also after the end",
+                rust: "u32",
+                c: "uint32_t",
+            },
+            _ => Self {
+                reference: "Reference",
+                name: "time",
+                words: "at `time`, s, which may be before 0 or after the end; NaN may give NaN, which {{name}}_step answers with a fault",
+                rust: "f64",
+                c: "double",
+            },
+        }
+    }
+}
+
 impl Interface<'_> {
     /// Words of a controller: its mark, θ̂, the last command, the last position, and whether there was one.
     fn words(&self) -> usize {
@@ -66,7 +97,13 @@ impl Interface<'_> {
     fn fill(&self, text: &str) -> String {
         let upper = self.name.to_uppercase();
         let (words, size) = (self.words(), self.scalar.size);
+        let instant = Instant::of(self.scalar);
         [
+            ("reference", instant.reference.to_string()),
+            ("instant_words", instant.words.replace("{{name}}", self.name)),
+            ("instant", instant.name.to_string()),
+            ("rust_instant", instant.rust.to_string()),
+            ("c_instant", instant.c.to_string()),
             ("name", self.name.to_string()),
             ("NAME", upper),
             ("hash", self.hash.to_string()),

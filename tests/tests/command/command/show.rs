@@ -178,6 +178,47 @@ fn simulate_sums_up_both_laws() {
     }
 }
 
+/// Each robust gain is measured, whichever the law has; what the law has is measured in the run that is shown.
+#[test]
+fn simulate_measures_the_chatter_of_each_robust_gain() {
+    let with = |gain: &str| {
+        simulated(|spec| {
+            spec["simulation"] = json!({ "duration": 0.5 });
+            spec["control"]["robust_gain"] = json!(gain);
+        })
+    };
+    let measured = |summary: &Value| -> Vec<(String, bool, f64)> {
+        let of = |one: &Value| {
+            let step = one["relative_step"].as_f64().expect("a number");
+            (one["robust_gain"].as_str().expect("a name").to_string(), one["used"] == true, step)
+        };
+        summary["measured_chatter"].as_array().expect("a list").iter().map(of).collect()
+    };
+    let summaries = ["state", "constant"].map(with);
+    let [state, constant] = summaries.each_ref().map(measured);
+    for (index, name) in ["state", "constant"].into_iter().enumerate() {
+        assert_eq!(state[index], (name.to_string(), index == 0, state[index].2));
+        assert_eq!(constant[index], (name.to_string(), index == 1, state[index].2));
+    }
+    // The sign function switches by the whole gain in every period, and the constant one is never smaller.
+    assert!(state[1].2 > state[0].2 && state[0].2 > 0.0, "{state:?}");
+    for (summary, (_, _, step)) in summaries.iter().zip([&state[0], &state[1]]) {
+        let list = |key: &str| -> Vec<f64> {
+            let values = summary["law"][key].as_array().expect("a list");
+            values.iter().map(|value| value.as_f64().expect("a number")).collect()
+        };
+        let (variation, peak) = (list("torque_total_variation"), list("peak_torque"));
+        // Periods of 10 ms.
+        let largest = variation.iter().zip(&peak).map(|(variation, peak)| variation / 50.0 / peak);
+        assert!((largest.fold(0.0, f64::max) / step - 1.0).abs() < 1e-9, "{step}");
+    }
+    let exact = simulated(|spec| {
+        spec["simulation"] = json!({ "duration": 0.1 });
+        spec["control"]["law"] = json!("exact");
+    });
+    assert_eq!(exact["measured_chatter"], json!([]), "it switches nothing");
+}
+
 #[test]
 fn convergence_is_the_last_instant_outside() {
     let short = simulated(|spec| spec["simulation"] = json!({ "duration": 0.05 }));
