@@ -126,9 +126,10 @@ fn drafted(text: &str, path: &Path) -> Result<Draft, Error> {
 /// The specification that `value`, which has its shape, stands for.
 fn typed(mut value: Value, path: &Path) -> Result<Loaded, Error> {
     json::narrow(&mut value);
-    let spec: Spec = serde_json::from_value(value).map_err(|error| {
+    let mut spec: Spec = serde_json::from_value(value).map_err(|error| {
         Error::input(path, "", format!("does not fit the schema ({error})"), "compare it with the schema")
     })?;
+    spec.emit.leave_out_default();
     let named = named::read(&spec, path);
     let files =
         [path.to_path_buf()].into_iter().chain(named.iter().map(|named| named.path.clone())).collect();

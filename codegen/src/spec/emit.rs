@@ -31,12 +31,12 @@ fn is_false(value: &bool) -> bool {
 impl EmitSpec {
     /// How sines and cosines are taken.
     pub fn sines(&self) -> TrigSpec {
-        let default = match self.scalar {
-            ScalarSpec::F64 => TrigSpec::Libm,
-            // In f32 `libm` computes in f64, which costs thousands of instructions on a processor without double.
-            ScalarSpec::F32 => TrigSpec::Polynomial,
-        };
-        self.trig.unwrap_or(default)
+        self.trig.unwrap_or(self.scalar.sines())
+    }
+
+    /// Two specifications that ask for the same are the same.
+    pub(crate) fn leave_out_default(&mut self) {
+        self.trig = self.trig.filter(|trig| *trig != self.scalar.sines());
     }
 }
 
@@ -96,6 +96,15 @@ impl ScalarSpec {
         match self {
             Self::F64 => "f64",
             Self::F32 => "f32",
+        }
+    }
+
+    /// How its sines and cosines are taken where nothing else is asked for.
+    fn sines(self) -> TrigSpec {
+        match self {
+            Self::F64 => TrigSpec::Libm,
+            // In f32 `libm` computes in f64, which costs thousands of instructions on a processor without double.
+            Self::F32 => TrigSpec::Polynomial,
         }
     }
 
