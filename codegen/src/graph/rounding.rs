@@ -1,6 +1,8 @@
 //! What computing a graph may be off by: running error analysis over intervals.
 
 use super::{Graph, Node, Variable};
+use crate::lagrangian::MAX_JOINTS;
+use crate::numerics::affine::{Affine, UNKNOWNS};
 use crate::numerics::interval::Interval;
 use crate::numerics::rounded::{Format, Rounded};
 
@@ -48,47 +50,68 @@ impl Graph {
             [sin, cos].map(|value| Rounded::within(value, sine, format))
         };
         let mut all: Vec<Rounded> = Vec::with_capacity(self.nodes.len());
+        let mut forms: Vec<Affine> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
-            let number = match *node {
-                Node::Input(variable) => Rounded::input(inputs.input(variable), format),
-                Node::Sin(j) => turned(j)[0],
-                Node::Cos(j) => turned(j)[1],
-                Node::Constant(bits) => Rounded::constant(f64::from_bits(bits), format),
-                Node::Add(a, b) => all[a] + all[b],
-                Node::Sub(a, b) => self.difference(a, b, &all, inputs),
-                Node::Mul(a, b) if a == b => all[a].square(),
-                Node::Mul(a, b) => all[a] * all[b],
-                Node::Neg(a) => -all[a],
-                Node::Abs(a) => all[a].abs(),
-                Node::Clamp(a, low, high) => all[a].clamp(all[low], all[high]),
-                Node::Select(a, above, below, otherwise) => {
+            // The number lies in its interval and in the range of its form.
+            let within = |interval: Interval, form: &Affine| interval.meet(form.range());
+            let form = match *node {
+                Node::Input(variable) => Some(unknown(inputs, variable)),
+                Node::Add(a, b) => Some(forms[a].plus(&forms[b])),
+                Node::Sub(a, b) => Some(forms[a].plus(&forms[b].minus())),
+                Node::Mul(a, b) => Some(forms[a].times(&forms[b])),
+                Node::Neg(a) => Some(forms[a].minus()),
+                _ => None,
+            };
+            let number = match (*node, &form) {
+                (Node::Input(variable), _) => Rounded::input(inputs.input(variable), format),
+                (Node::Sin(j), _) => turned(j)[0],
+                (Node::Cos(j), _) => turned(j)[1],
+                (Node::Constant(bits), _) => Rounded::constant(f64::from_bits(bits), format),
+                (Node::Add(a, b), Some(form)) => {
+                    all[a].sum(all[b], within(all[a].value + all[b].value, form))
+                }
+                (Node::Sub(a, b), Some(form)) => {
+                    all[a].sum(all[b], within(all[a].value - all[b].value, form))
+                }
+                (Node::Mul(a, b), Some(form)) => {
+                    let Interval { low, high } = all[a].value * all[b].value;
+                    // A square is not negative.
+                    let low = if a == b { low.max(0.0) } else { low };
+                    all[a].product(all[b], within(Interval { low, high }, form))
+                }
+                (Node::Neg(a), _) => -all[a],
+                (Node::Abs(a), _) => all[a].abs(),
+                (Node::Clamp(a, low, high), _) => all[a].clamp(all[low], all[high]),
+                (Node::Select(a, above, below, otherwise), _) => {
                     all[a].select(all[above], all[below], all[otherwise])
                 }
+                // Every sum and product has a form.
+                (Node::Add(a, b), None) => all[a] + all[b],
+                (Node::Sub(a, b), None) => all[a] - all[b],
+                (Node::Mul(a, b), None) => all[a] * all[b],
             };
+            forms.push(form.unwrap_or_else(|| Affine::alone(number.value)));
             all.push(number);
         }
         all
     }
-
-    /// q − q_d is as small as the error, however large q and q_d are.
-    fn difference(&self, a: usize, b: usize, all: &[Rounded], inputs: &impl Inputs) -> Rounded {
-        let known = match (self.nodes[a], self.nodes[b]) {
-            (Node::Input(measured), Node::Input(desired)) if measured.desired() == Some(desired) => {
-                inputs.error(measured)
-            }
-            _ => None,
-        };
-        known.map_or_else(|| all[a] - all[b], |value| all[a].less(all[b], value))
-    }
 }
 
-impl Variable {
-    /// The desired value of a measured input; `None` for the other inputs.
-    fn desired(self) -> Option<Self> {
-        match self {
-            Self::Q(j) => Some(Self::DesiredQ(j)),
-            Self::Qd(j) => Some(Self::DesiredQd(j)),
-            _ => None,
-        }
+/// An input as a sum of unknowns: a measured one is the desired one and its error.
+fn unknown(inputs: &impl Inputs, variable: Variable) -> Affine {
+    let place = |kind: usize, j: usize| if j < MAX_JOINTS { kind * MAX_JOINTS + j } else { UNKNOWNS };
+    let (error, desired) = match variable {
+        Variable::Q(j) => (place(0, j), Some(Variable::DesiredQ(j))),
+        Variable::Qd(j) => (place(1, j), Some(Variable::DesiredQd(j))),
+        Variable::DesiredQ(j) => (place(2, j), None),
+        Variable::DesiredQd(j) => (place(3, j), None),
+        Variable::DesiredQdd(j) | Variable::Ar(j) => (place(4, j), None),
+        Variable::Vr(j) => (place(5, j), None),
+        // There may be many of them.
+        Variable::Theta(_) => (UNKNOWNS, None),
+    };
+    match (inputs.error(variable), desired) {
+        (Some(range), Some(desired)) => Affine::unknown(range, error).plus(&unknown(inputs, desired)),
+        _ => Affine::unknown(inputs.input(variable), error),
     }
 }

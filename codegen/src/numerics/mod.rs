@@ -1,5 +1,6 @@
 //! Numerical methods with a fixed order of operations: the same numbers give the same bits on every machine.
 
+pub(crate) mod affine;
 pub(crate) mod basis;
 pub(crate) mod chebyshev;
 pub(crate) mod interval;

@@ -79,16 +79,19 @@ impl Rounded {
         single && x.to_bits() & ((1 << 52) - 1) == 0
     }
 
-    /// x².
-    pub fn square(self) -> Self {
-        let product = self * self;
-        let Interval { low, high } = product.value;
-        Self { value: Interval { low: low.max(0.0), high }, ..product }
+    /// x + y or x − y, which is known to lie in `value`.
+    pub fn sum(self, y: Self, value: Interval) -> Self {
+        Self::once(value, self.error + y.error, self.format)
     }
 
-    /// x − y, which is known to lie in `value`.
-    pub fn less(self, y: Self, value: Interval) -> Self {
-        Self::once(value, self.error + y.error, self.format)
+    /// x y, which is known to lie in `value`.
+    pub fn product(self, b: Self, value: Interval) -> Self {
+        let (x, y) = (self.magnitude(), b.magnitude());
+        let carried = (x * b.error + y * self.error + self.error * b.error) * SPARE;
+        if self.is_power_of_two() || b.is_power_of_two() {
+            return Self { value, error: carried + self.format.underflow, ..self };
+        }
+        Self::once(value, carried, self.format)
     }
 
     /// |x|.
@@ -130,27 +133,21 @@ impl Rounded {
 impl Add for Rounded {
     type Output = Self;
     fn add(self, b: Self) -> Self {
-        Self::once(self.value + b.value, self.error + b.error, self.format)
+        self.sum(b, self.value + b.value)
     }
 }
 
 impl Sub for Rounded {
     type Output = Self;
     fn sub(self, b: Self) -> Self {
-        Self::once(self.value - b.value, self.error + b.error, self.format)
+        self.sum(b, self.value - b.value)
     }
 }
 
 impl Mul for Rounded {
     type Output = Self;
     fn mul(self, b: Self) -> Self {
-        let (x, y) = (self.magnitude(), b.magnitude());
-        let value = self.value * b.value;
-        let carried = (x * b.error + y * self.error + self.error * b.error) * SPARE;
-        if self.is_power_of_two() || b.is_power_of_two() {
-            return Self { value, error: carried + self.format.underflow, ..self };
-        }
-        Self::once(value, carried, self.format)
+        self.product(b, self.value * b.value)
     }
 }
 

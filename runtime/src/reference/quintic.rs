@@ -53,7 +53,7 @@ pub fn quintic<T: Real>(from: T, to: T, duration: T, t: T) -> (T, T, T) {
 }
 
 /// Position, velocity and acceleration of a motion from 0 to 1 at x = t/duration within (0, 1); `rate` is 1/duration, 1/s.
-#[inline]
+#[inline(always)]
 pub fn quintic_shape<T: Real>(x: T, rate: T) -> (T, T, T) {
     let Shape { position, velocity, acceleration, .. } = Shape::within(x, rate);
     (position, velocity, acceleration)
@@ -83,7 +83,7 @@ impl<T: Real> Shape<T> {
     }
 
     /// At x = t/duration within (0, 1); `rate` is 1/duration.
-    #[inline]
+    #[inline(always)]
     fn within(x: T, rate: T) -> Self {
         let c = T::from_f64;
         // The factored forms vanish exactly at x = 1 as well as at 0.
