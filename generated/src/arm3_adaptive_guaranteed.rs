@@ -280,9 +280,9 @@ pub const REFERENCE: ::gramforge_runtime::reference::QuinticReference<f64, 3> = 
 /// Beside that, the law may switch with the wrong sign where |s| is at most 9.495e-16.
 #[allow(dead_code, clippy::approx_constant)]
 pub const ROUNDING: [f64; 3] = [
-    0.000000000000389553,
-    0.000000000000190154,
-    0.000000000000127244,
+    0.000000000000273181,
+    0.000000000000151495,
+    0.000000000000102746,
 ];
 
 /// Multiplications in one control step, law and model.

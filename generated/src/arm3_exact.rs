@@ -163,8 +163,8 @@ pub const REFERENCE: ::gramforge_runtime::reference::QuinticReference<f64, 3> = 
 #[allow(dead_code, clippy::approx_constant)]
 pub const ROUNDING: [f64; 3] = [
     0.000000000000541696,
-    0.000000000000331755,
-    0.000000000000263603,
+    0.000000000000325739,
+    0.000000000000263233,
 ];
 
 /// Multiplications in one control step, law and model.

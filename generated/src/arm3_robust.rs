@@ -181,9 +181,9 @@ pub const REFERENCE: ::gramforge_runtime::reference::QuinticReference<f64, 3> = 
 /// (0.2000, 0.2000, 0.2000) and velocity errors up to (9.385, 5.568, 10.25).
 #[allow(dead_code, clippy::approx_constant)]
 pub const ROUNDING: [f64; 3] = [
-    0.00000000000881418,
+    0.00000000000881372,
     0.0000000000033468,
-    0.00000000000383652,
+    0.00000000000383638,
 ];
 
 /// Multiplications in one control step, law and model.

@@ -176,9 +176,9 @@ pub const REFERENCE: ::gramforge_runtime::reference::QuinticReference<f64, 3> = 
 /// Beside that, the law may switch with the wrong sign where |s| is at most 2.075e-15.
 #[allow(dead_code, clippy::approx_constant)]
 pub const ROUNDING: [f64; 3] = [
-    0.000000000000449918,
-    0.00000000000045695,
-    0.000000000000392301,
+    0.000000000000451821,
+    0.000000000000454605,
+    0.00000000000039656,
 ];
 
 /// Multiplications in one control step, law and model.

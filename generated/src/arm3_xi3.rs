@@ -184,9 +184,9 @@ pub const REFERENCE: ::gramforge_runtime::reference::QuinticReference<f64, 3> = 
 /// Beside that, the law may switch with the wrong sign where |s| is at most 1.844e-15.
 #[allow(dead_code, clippy::approx_constant)]
 pub const ROUNDING: [f64; 3] = [
-    0.000000000000531836,
-    0.000000000000362138,
-    0.000000000000292392,
+    0.000000000000637467,
+    0.000000000000396662,
+    0.000000000000314004,
 ];
 
 /// Multiplications in one control step, law and model.
