@@ -153,7 +153,6 @@ impl Parts<'_> {
                 self.largest_initial_error(&closed_loop, &shape(position, &own), level)?,
             )
         };
-
         reasons.extend(self.period_reasons(facts.certified, &longest));
         let (first_step, short) = self.drives(&closed_loop, &delta_c, &delta_c1);
         reasons.extend(short);
