@@ -226,7 +226,8 @@ fn an_absent_choice_is_libm() {
         spec_hash(&loaded).unwrap()
     });
     assert_eq!(absent, written);
-    let hash = |emit: serde_json::Value| spec_hash(&loaded("arm3_xi1", |spec| spec["emit"] = emit)).unwrap();
+    let hash =
+        |emit: serde_json::Value| spec_hash(&loaded("arm3_xi1", |spec| spec["emit"] = emit.clone())).unwrap();
     let single = hash(json!({ "scalar": "f32" }));
     assert_eq!(single, hash(json!({ "scalar": "f32", "trig": "polynomial" })));
     assert_ne!(single, hash(json!({ "scalar": "f32", "trig": "libm" })));
