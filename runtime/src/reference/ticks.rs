@@ -31,15 +31,19 @@ pub struct QuinticTicks<T, const N: usize> {
 impl<T: Real, const N: usize> TickReference<T, N> for QuinticTicks<T, N> {
     #[inline(always)]
     fn at(&self, tick: u32) -> Desired<T, N> {
-        let (mut q, mut qd, mut qdd) = (self.to, [T::ZERO; N], [T::ZERO; N]);
-        if tick >= self.end {
-            return Desired { q, qd, qdd };
-        }
-        let (position, velocity, acceleration) = quintic_shape(T::from_u32(tick) * self.step, self.rate);
+        let arrived = tick >= self.end;
+        let (position, velocity, acceleration) = if arrived {
+            (T::ZERO, T::ZERO, T::ZERO)
+        } else {
+            quintic_shape(T::from_u32(tick) * self.step, self.rate)
+        };
+        let (mut q, mut qd, mut qdd) = (self.to, self.to, self.to);
         // One loop: a compiler that is asked for small code keeps every loop that is written.
         for i in 0..N {
             let span = self.to[i] - self.from[i];
-            q[i] = self.from[i] + span * position;
+            if !arrived {
+                q[i] = self.from[i] + span * position;
+            }
             qd[i] = span * velocity;
             qdd[i] = span * acceleration;
         }
