@@ -1,16 +1,22 @@
 //! Numbers as tokens.
 
+use std::path::Path;
+
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
 use super::spaced;
 use crate::error::Error;
-use crate::number::{single_down, single_up};
+use crate::number::{scientific, single_down, single_up};
 use crate::spec::ScalarSpec;
 
 /// How numbers of one type are written.
 #[derive(Clone, Copy)]
-pub(super) struct Numbers(pub ScalarSpec);
+pub(super) struct Numbers<'a> {
+    pub scalar: ScalarSpec,
+    /// The specification, which an error names.
+    pub file: &'a Path,
+}
 
 /// To which side a number is rounded that the type does not have.
 #[derive(Clone, Copy)]
@@ -20,16 +26,16 @@ pub(super) enum Rounding {
     Down,
 }
 
-impl Numbers {
+impl Numbers<'_> {
     /// The name of the type.
     pub(super) fn name(self) -> Ident {
-        Ident::new(self.0.name(), Span::call_site())
+        Ident::new(self.scalar.name(), Span::call_site())
     }
 
     /// A finite number, rounded once, in the shortest form that reads back to the same bits; the sign is a token of its own.
     ///
     /// # Errors
-    /// [`Error::Internal`] for infinite and NaN, and for what the type has no finite number for.
+    /// [`Error::Input`] for a finite number that f32 has no finite one for, [`Error::Internal`] for infinite and NaN.
     pub(super) fn float(self, x: f64) -> Result<TokenStream, Error> {
         self.rounded(x, Rounding::Nearest)
     }
@@ -39,7 +45,7 @@ impl Numbers {
     /// # Errors
     /// As [`Numbers::float`].
     pub(super) fn rounded(self, x: f64, rounding: Rounding) -> Result<TokenStream, Error> {
-        let (size, negative, finite) = match self.0 {
+        let (size, negative, finite) = match self.scalar {
             ScalarSpec::F64 => (Literal::f64_unsuffixed(finite((x + 0.0).abs())), x < 0.0, x.is_finite()),
             ScalarSpec::F32 => {
                 let single = match rounding {
@@ -53,6 +59,16 @@ impl Numbers {
         };
         match finite {
             true => Ok(if negative { quote!(-#size) } else { quote!(#size) }),
+            false if x.is_finite() => {
+                let problem =
+                    format!("is `f32`, and the module holds {}, which f32 cannot hold", scientific(x));
+                Err(Error::input(
+                    self.file,
+                    "emit.scalar",
+                    problem,
+                    "write \"f64\", or every number in SI units",
+                ))
+            }
             false => Err(Error::Internal(format!("a constant of the generated code is {x}"))),
         }
     }

@@ -23,6 +23,8 @@ pub(crate) use docs::{
     torque as torque_in_words,
 };
 
+use std::path::Path;
+
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
@@ -41,6 +43,8 @@ use crate::torque::Regressor;
 /// What a module is made from.
 #[derive(Clone, Copy, Debug)]
 pub struct Module<'a> {
+    /// The specification, which errors name.
+    pub file: &'a Path,
     /// Name of the specification, `[a-z][a-z0-9_]*`.
     pub name: &'a str,
     /// SHA-256 of the specification and the files it names, hexadecimal.
@@ -82,8 +86,8 @@ pub struct Module<'a> {
 }
 
 impl Module<'_> {
-    fn numbers(&self) -> literal::Numbers {
-        literal::Numbers(self.scalar)
+    fn numbers(&self) -> literal::Numbers<'_> {
+        literal::Numbers { scalar: self.scalar, file: self.file }
     }
 }
 

@@ -11,13 +11,16 @@ pub struct Format {
     pub unit: f64,
     /// Largest error of one rounding below the normal numbers.
     pub underflow: f64,
+    /// Largest number.
+    pub most: f64,
 }
 
 impl Format {
     /// IEEE double.
-    pub const DOUBLE: Self = Self { unit: 0.5 * f64::EPSILON, underflow: 5e-324 };
+    pub const DOUBLE: Self = Self { unit: 0.5 * f64::EPSILON, underflow: 5e-324, most: f64::MAX };
     /// IEEE single.
-    pub const SINGLE: Self = Self { unit: 0.5 * f32::EPSILON as f64, underflow: 7.1e-46 };
+    pub const SINGLE: Self =
+        Self { unit: 0.5 * f32::EPSILON as f64, underflow: 7.1e-46, most: f32::MAX as f64 };
 }
 
 /// The sums and products below are rounded themselves, in f64: each error is made that much larger.
@@ -68,8 +71,10 @@ impl Rounded {
 
     /// What is computed of `value` from operands whose errors lead to `carried`.
     fn once(value: Interval, carried: f64, format: Format) -> Self {
-        let own = format.unit * (value.magnitude() + carried) + format.underflow;
-        Self { value, error: (carried + own) * SPARE, format }
+        let size = value.magnitude() + carried;
+        let error = (carried + format.unit * size + format.underflow) * SPARE;
+        // What may be too large for the format has no bound.
+        Self { value, error: if size < format.most { error } else { f64::INFINITY }, format }
     }
 
     /// The literal 2^k or −2^k, by which a product is exact but for underflow.
@@ -89,7 +94,9 @@ impl Rounded {
         let (x, y) = (self.magnitude(), b.magnitude());
         let carried = (x * b.error + y * self.error + self.error * b.error) * SPARE;
         if self.is_power_of_two() || b.is_power_of_two() {
-            return Self { value, error: carried + self.format.underflow, ..self };
+            let fits = value.magnitude() + carried < self.format.most;
+            let error = if fits { carried + self.format.underflow } else { f64::INFINITY };
+            return Self { value, error, ..self };
         }
         Self::once(value, carried, self.format)
     }

@@ -113,6 +113,7 @@ impl Generation {
 
     fn with_module<T>(&self, write: impl FnOnce(&Module) -> Result<T, Error>) -> Result<T, Error> {
         write(&Module {
+            file: self.path(),
             name: &self.spec().name,
             hash: &spec_hash(&self.checked().loaded)?,
             arm: self.arm(),

@@ -75,7 +75,13 @@ fn of(certified: &Certified, design: &Design, step: &StepGraph) -> Result<StepRo
     };
     let states = StepStates::new(&around);
     let (torque, sign) = step_rounding(step, &states, &around, scalar.format());
-    let torque = torque.into_iter().map(six_digits_up).collect();
+    let torque: Vec<f64> = torque.into_iter().map(six_digits_up).collect();
+    if !torque.iter().chain([&sign]).all(|bound| bound.is_finite()) {
+        let mut faults = Diagnostics::of(&checked.loaded.path);
+        let problem = format!("asks for torques that may overflow in {}", scalar.name());
+        faults.push("control", problem, "write gains, boundary layer and initial errors in SI units");
+        return Err(faults.into_error());
+    }
     let reference = match motion.filter(|_| scalar == ScalarSpec::F32) {
         None => None,
         Some(motion) => {

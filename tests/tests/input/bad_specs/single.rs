@@ -23,6 +23,15 @@ const CASES: &[Case] = &[
         &["which counts 16777216 periods", "write \"f64\", or a shorter motion"],
     ),
     case(
+        "a number that f32 cannot hold",
+        |i| {
+            i.set("/emit", json!({ "scalar": "f32" }));
+            i.set("/control/boundary_layer", json!(1e39));
+        },
+        "emit.scalar",
+        &["which f32 cannot hold", "write \"f64\""],
+    ),
+    case(
         "angles beyond the range of the sines in f32",
         |i| {
             i.set("/emit", json!({ "scalar": "f32" }));
