@@ -231,7 +231,7 @@ pub(crate) fn functions(lagrangian: &Lagrangian, reduced: &Reduced) -> Vec<Strin
 }
 
 /// Numbers by joint, with digits rounded up.
-fn list(x: &[f64]) -> String {
+pub(super) fn list(x: &[f64]) -> String {
     x.iter().map(|&e| printed_up(e)).collect::<Vec<_>>().join(", ")
 }
 

@@ -3,6 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::docs::list;
 use super::literal::{Rounding, count};
 use super::{Module, constant};
 use crate::bounds::printed_up;
@@ -64,9 +65,4 @@ pub(super) fn by_period([q, qd, qdd]: &ReferenceError) -> Vec<String> {
         ),
         " acceleration.".to_string(),
     ]
-}
-
-/// Numbers by joint, with digits rounded up.
-fn list(x: &[f64]) -> String {
-    x.iter().map(|&e| printed_up(e)).collect::<Vec<_>>().join(", ")
 }

@@ -52,45 +52,35 @@ impl Graph {
         let mut all: Vec<Rounded> = Vec::with_capacity(self.nodes.len());
         let mut forms: Vec<Affine> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
-            // The number lies in its interval and in the range of its form.
-            let within = |interval: Interval, form: &Affine| interval.meet(form.range());
-            let form = match *node {
-                Node::Input(variable) => Some(unknown(inputs, variable)),
-                Node::Add(a, b) => Some(forms[a].plus(&forms[b])),
-                Node::Sub(a, b) => Some(forms[a].plus(&forms[b].minus())),
-                Node::Mul(a, b) => Some(forms[a].times(&forms[b])),
-                Node::Neg(a) => Some(forms[a].minus()),
-                _ => None,
+            let alone = |number: Rounded| (number, Affine::alone(number.value));
+            // A sum or a product lies in its interval and in the range of its form.
+            let sum = |a: usize, b: usize, interval: Interval, form: Affine| {
+                (all[a].sum(all[b], interval.meet(form.range())), form)
             };
-            let number = match (*node, &form) {
-                (Node::Input(variable), _) => Rounded::input(inputs.input(variable), format),
-                (Node::Sin(j), _) => turned(j)[0],
-                (Node::Cos(j), _) => turned(j)[1],
-                (Node::Constant(bits), _) => Rounded::constant(f64::from_bits(bits), format),
-                (Node::Add(a, b), Some(form)) => {
-                    all[a].sum(all[b], within(all[a].value + all[b].value, form))
+            let (number, form) = match *node {
+                Node::Input(variable) => {
+                    (Rounded::input(inputs.input(variable), format), unknown(inputs, variable))
                 }
-                (Node::Sub(a, b), Some(form)) => {
-                    all[a].sum(all[b], within(all[a].value - all[b].value, form))
-                }
-                (Node::Mul(a, b), Some(form)) => {
+                Node::Add(a, b) => sum(a, b, all[a].value + all[b].value, forms[a].plus(&forms[b])),
+                Node::Sub(a, b) => sum(a, b, all[a].value - all[b].value, forms[a].plus(&forms[b].minus())),
+                Node::Mul(a, b) => {
+                    let form = forms[a].times(&forms[b]);
                     let Interval { low, high } = all[a].value * all[b].value;
                     // A square is not negative.
                     let low = if a == b { low.max(0.0) } else { low };
-                    all[a].product(all[b], within(Interval { low, high }, form))
+                    (all[a].product(all[b], Interval { low, high }.meet(form.range())), form)
                 }
-                (Node::Neg(a), _) => -all[a],
-                (Node::Abs(a), _) => all[a].abs(),
-                (Node::Clamp(a, low, high), _) => all[a].clamp(all[low], all[high]),
-                (Node::Select(a, above, below, otherwise), _) => {
-                    all[a].select(all[above], all[below], all[otherwise])
+                Node::Neg(a) => (-all[a], forms[a].minus()),
+                Node::Sin(j) => alone(turned(j)[0]),
+                Node::Cos(j) => alone(turned(j)[1]),
+                Node::Constant(bits) => alone(Rounded::constant(f64::from_bits(bits), format)),
+                Node::Abs(a) => alone(all[a].abs()),
+                Node::Clamp(a, low, high) => alone(all[a].clamp(all[low], all[high])),
+                Node::Select(a, above, below, otherwise) => {
+                    alone(all[a].select(all[above], all[below], all[otherwise]))
                 }
-                // Every sum and product has a form.
-                (Node::Add(a, b), None) => all[a] + all[b],
-                (Node::Sub(a, b), None) => all[a] - all[b],
-                (Node::Mul(a, b), None) => all[a] * all[b],
             };
-            forms.push(form.unwrap_or_else(|| Affine::alone(number.value)));
+            forms.push(form);
             all.push(number);
         }
         all

@@ -16,6 +16,7 @@ macro_rules! included {
 
 mod adaptive;
 mod counts;
+mod double;
 mod generated_code;
 mod single;
 mod steps;

@@ -4,9 +4,10 @@ use std::array::from_fn;
 
 use gramforge::Generation;
 use gramforge_runtime::reference::TickReference;
-use gramforge_runtime::{ControlStep, Desired};
-use gramforge_tests::generation;
+use gramforge_runtime::{ControlStep, Desired, Model};
 use gramforge_tests::random::Random;
+use gramforge_tests::{edited, generation};
+use serde_json::json;
 
 included!(single_sign single_adaptive single_puma single_panda single_ur5 single_stanford single_tight single_csv);
 included!(single_sinusoids);
@@ -146,6 +147,72 @@ fn attacked<S, const N: usize, const P: usize>(
 #[test]
 fn no_state_rounds_by_more_than_published() {
     all!(attacked);
+}
+
+/// The model alone in f32: its rounding is the part of the torque error that is published as rounding.
+fn model_attacked<S, const N: usize>(
+    name: &str,
+    model: S,
+    _published: &[f32; N],
+    _reference: &impl TickReference<f32, N>,
+) where
+    S: Model<N, Scalar = f32>,
+{
+    let made = generation(name);
+    let Some(torque) = made.torque() else { panic!("{name}: the rates are known") };
+    let mut random = Random::new(73);
+    let mut worst = [0.0_f64; N];
+    for k in 0..3000 {
+        let mut x = random.vector(1 + 4 * N, 1.0);
+        if k % 2 == 0 {
+            x[1..].iter_mut().for_each(|x| *x = x.signum());
+        }
+        let about = |most: &[f64], from: usize| -> [f32; N] {
+            from_fn(|i| (0.999_999 * x[from + i] * most[i]) as f32)
+        };
+        let motion = made.motion().expect("a motion");
+        let centre = motion.at(0.5 * (x[0] + 1.0) * motion.duration()).q;
+        // Around a motion as far as the tube goes, over a workspace near the motion.
+        let width = made.domain().width().unwrap_or_else(|| vec![0.0; N]);
+        let q: [f32; N] = from_fn(|i| (centre[i] + 0.999_999 * x[1 + i] * width[i]) as f32);
+        let (qd, v_r) = (about(&torque.rates.speed, 1 + N), about(&torque.rates.reference_speed, 1 + 2 * N));
+        let a_r = about(&torque.rates.reference_acceleration, 1 + 3 * N);
+        let computed = model.passivity_torque(&q, &qd, &v_r, &a_r);
+        let real = |x: [f32; N]| x.map(f64::from);
+        let exact = made.code().interpret(&real(q), &real(qd), &real(v_r), &real(a_r));
+        for i in 0..N {
+            let off = (f64::from(computed[i]) - exact[i]).abs();
+            assert!(off <= torque.rounding[i], "{name}, joint {}: {off:e}", i + 1);
+            assert!(torque.rounding[i] <= torque.error[i], "{name}: the error holds its rounding");
+            worst[i] = worst[i].max(off / torque.rounding[i]);
+        }
+    }
+    println!("{name}: the model rounds by at most {worst:.3?} of what is published");
+    assert!(worst.iter().any(|part| *part > 0.02));
+}
+
+#[test]
+fn no_model_in_f32_rounds_by_more_than_its_torque_error_says() {
+    all!(model_attacked);
+}
+
+/// What f32 rounds by is no part of the model: the same law is promised less.
+#[test]
+fn a_guarantee_in_f32_counts_its_rounding() {
+    // A sign function held for 10 ms chatters too much for a final error below the first one.
+    for (name, period) in [("single_sign", 1e-4), ("single_puma", 1e-3), ("single_tight", 1e-3)] {
+        let [single, double] = ["f32", "f64"].map(|scalar| {
+            let made = edited(name, |spec| {
+                spec["emit"] = json!({ "scalar": scalar, "trig": "polynomial" });
+                spec["control"]["period"] = json!(period);
+            });
+            made.unwrap_or_else(|message| panic!("{message}"))
+        });
+        let [single, double] = [&single, &double].map(|made| &made.design().expect("a controller").guarantee);
+        assert_eq!(single.holds, double.holds, "{name}");
+        let pairs = || single.final_error.iter().zip(&double.final_error);
+        assert!(pairs().all(|(single, double)| single > double), "{name}: {single:?} {double:?}");
+    }
 }
 
 fn same_bits<S, const N: usize, const P: usize>(

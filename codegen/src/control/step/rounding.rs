@@ -43,10 +43,13 @@ impl StepRounding {
 
 /// What the states of a step lie in, beside the domain.
 pub struct Surroundings<'a> {
+    /// Where the bounds of the model hold.
     pub domain: &'a Domain,
+    /// What the law keeps the errors below.
     pub envelope: &'a Envelope,
     /// The motion's own rates, or over a workspace without one the joints' limits.
     pub rates: &'a Rates,
+    /// What the law learns.
     pub adaptation: Option<&'a Adaptation>,
 }
 

@@ -2,6 +2,7 @@
 #![no_std]
 #![no_main]
 
+#[path = "../../board_of_examples.rs"]
 mod board;
 
 #[rustfmt::skip]
