@@ -113,7 +113,7 @@ impl<'a> Funnel<'a> {
         let most = |i: usize| before[i].max(after[i]) + bent * during.acceleration[i];
         let most: Vec<f64> = (0..n).map(most).collect();
         self.set = set;
-        self.guess = during.acceleration.iter().map(|x| x / 1.2).collect();
+        self.guess = during.acceleration;
         if let Some(joint) = (0..n).find(|&i| !(most[i] <= self.problem.tube[i])) {
             return Err(Lost::Tube { joint, time: self.time(self.index) });
         }

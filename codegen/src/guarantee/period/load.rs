@@ -1,0 +1,125 @@
+//! What pushes the errors about during a period.
+
+use super::super::enclosure::Enclosure;
+use super::Stop;
+use super::moved::of_numbers;
+use super::numbers::{UP, ends, point, scale};
+use super::sample::Sample;
+use crate::numerics::linalg::weighed;
+
+/// What pushes the errors about during a period, in torque.
+pub(super) struct Load {
+    /// Bound on the mean of what is not in the centre, by joint.
+    pub(super) mean: Vec<f64>,
+    /// Bound on it at any time, and on the part of it that changes.
+    pub(super) most: Vec<f64>,
+    pub(super) changing: Vec<f64>,
+    /// Known to be there for the whole period: the middle of Coulomb friction.
+    pub(super) middle: Vec<f64>,
+}
+
+/// Displacements during a period.
+pub(super) struct Within {
+    /// Bounds on |q_e|, then on |q̇_e|.
+    pub(super) errors: Vec<f64>,
+    /// The same of (q, q̇) from the desired state of the start.
+    pub(super) away: Vec<f64>,
+    lambda: f64,
+    /// The λ of the displacements of q alone.
+    pub(super) lambda_q: f64,
+}
+
+impl Sample<'_> {
+    /// How far the state may be from the desired one of the start while |q̈_e| is below this, and how far the errors go.
+    pub(super) fn within(&self, acceleration: &[f64]) -> Result<Within, Stop> {
+        let Self { problem, local, n, .. } = *self;
+        let t = problem.period;
+        let span = &local.course.span;
+        let mut errors = self.x.clone();
+        let mut away = vec![0.0; 2 * n];
+        for i in 0..n {
+            errors[i] += t * self.x[n + i] + 0.5 * t * t * acceleration[i];
+            errors[n + i] += t * acceleration[i];
+            let target = &local.course.target;
+            away[i] = UP * errors[i] + (span.q[i] - point(target.q[i])).magnitude();
+            away[n + i] = UP * errors[n + i] + (span.qd[i] - point(target.qd[i])).magnitude();
+        }
+        let lambda = scale(&away, &local.half);
+        let lambda_q = scale(&away[..n], &local.half);
+        if lambda > 1.0 { Err(Stop::Beyond(away)) } else { Ok(Within { errors, away, lambda, lambda_q }) }
+    }
+
+    /// What pushes while |q̈_e| is below `acceleration`.
+    pub(super) fn load(&self, acceleration: &[f64], within: &Within) -> Load {
+        let Self { problem, local, n, .. } = *self;
+        let t = problem.period;
+        let mut load = Load {
+            mean: Vec::with_capacity(n),
+            most: Vec::with_capacity(n),
+            changing: Vec::with_capacity(n),
+            middle: Vec::with_capacity(n),
+        };
+        let own = self.change(&local.arm, acceleration, within, true);
+        let numbers = problem.numbers.iter().zip(&local.added);
+        let added: Vec<Vec<f64>> = numbers
+            .map(|(number, added)| {
+                let change = self.change(&added.enclosure, acceleration, within, false);
+                let whole = |(change, rate): (f64, &f64)| number.most() * (change + rate);
+                change.into_iter().zip(&added.lag_rate).map(whole).collect()
+            })
+            .collect();
+        for i in 0..n {
+            let rate = own[i] + added.iter().map(|added| added[i]).sum::<f64>();
+            let bend = local.lag.rate[i].high - local.lag.rate[i].low;
+            let [low, high] = self.coulomb(i, within);
+            let speed = local.course.span.qd[i].magnitude() + within.errors[n + i];
+            let half = 0.5 * (high - low) + problem.viscous[i] * speed;
+            let (mean, most) = (0.5 * t * rate + 0.125 * t * bend, t * rate + 0.25 * t * bend);
+            let numbers = of_numbers(problem, local, i);
+            let lagged = t * local.lag.rate[i].magnitude();
+            let middle = self.fed[i] - 0.5 * (low + high);
+            load.mean.push(UP * (self.wrong[i] + half + mean + ends(local.lag.end[i])));
+            load.most.push(UP * (self.wrong[i] + half + most + lagged + numbers + middle.abs()));
+            load.changing.push(UP * (2.0 * half + most));
+            load.middle.push(middle);
+        }
+        load
+    }
+
+    /// Bound on what d/dt(D a_r + n) differs by from that of the desired motion, by joint.
+    fn change(&self, arm: &Enclosure, acceleration: &[f64], within: &Within, own: bool) -> Vec<f64> {
+        let Self { problem, local, n, .. } = *self;
+        let Within { errors, away, lambda, .. } = within;
+        let late: Vec<f64> = (0..n)
+            .map(|j| (local.course.span.qdd[j] - point(local.course.target.qdd[j])).magnitude())
+            .collect();
+        let moved = |i: usize, j: usize| arm.coriolis.change(i * n + j, away, *lambda);
+        let size = |i: usize, j: usize| arm.coriolis.centre[i * n + j].abs() + moved(i, j);
+        let row = |i: usize| {
+            // The rate at the state less that on the desired motion: what is beyond the line counts for both.
+            let slopes: f64 = arm.rate.slopes(i).iter().zip(errors).map(|(a, x)| a.abs() * x).sum();
+            let mut sum = slopes + 2.0 * arm.rate.beyond(i, *lambda);
+            for j in 0..n {
+                let (ij, ji) = (size(i, j), size(j, i));
+                let slowed = weighed(&problem.gains.p12[j], &self.x[n..]);
+                sum += 2.0 * ij * acceleration[j] + 4.0 * moved(i, j) * late[j] + (ij + ji) * slowed;
+            }
+            let friction = if own { problem.arm.joints[i].viscous_friction } else { 0.0 };
+            sum + friction * acceleration[i]
+        };
+        (0..n).map(row).collect()
+    }
+
+    /// Range of the Coulomb friction of joint `i` during the period, N·m or N.
+    fn coulomb(&self, i: usize, within: &Within) -> [f64; 2] {
+        let [forwards, backwards] = self.problem.arm.joints[i].coulomb_friction;
+        let (speed, error) = (self.local.course.span.qd[i], within.errors[self.n + i]);
+        if speed.low > error {
+            [forwards; 2]
+        } else if speed.high < -error {
+            [backwards; 2]
+        } else {
+            [backwards.min(forwards), forwards.max(backwards)]
+        }
+    }
+}
