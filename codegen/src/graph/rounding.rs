@@ -57,6 +57,13 @@ impl Graph {
             let sum = |a: usize, b: usize, interval: Interval, form: Affine| {
                 (all[a].sum(all[b], interval.meet(form.range())), form)
             };
+            let product = |a: usize, b: usize| {
+                let form = forms[a].times(&forms[b]);
+                let Interval { low, high } = all[a].value * all[b].value;
+                // A square is not negative.
+                let low = if a == b { low.max(0.0) } else { low };
+                (Interval { low, high }.meet(form.range()), form)
+            };
             let (number, form) = match *node {
                 Node::Input(variable) => {
                     (Rounded::input(inputs.input(variable), format), unknown(inputs, variable))
@@ -64,11 +71,15 @@ impl Graph {
                 Node::Add(a, b) => sum(a, b, all[a].value + all[b].value, forms[a].plus(&forms[b])),
                 Node::Sub(a, b) => sum(a, b, all[a].value - all[b].value, forms[a].plus(&forms[b].minus())),
                 Node::Mul(a, b) => {
-                    let form = forms[a].times(&forms[b]);
-                    let Interval { low, high } = all[a].value * all[b].value;
-                    // A square is not negative.
-                    let low = if a == b { low.max(0.0) } else { low };
-                    (all[a].product(all[b], Interval { low, high }.meet(form.range())), form)
+                    let (value, form) = product(a, b);
+                    (all[a].product(all[b], value), form)
+                }
+                Node::MulAdd(signs, a, b, c) => {
+                    let (value, form) = product(a, b);
+                    let (value, added) = signs.given(value, all[c].value);
+                    let (form, added_form) = signs.given(form, forms[c]);
+                    let form = form.plus(&added_form);
+                    (all[a].mul_add(all[b], all[c], (value + added).meet(form.range())), form)
                 }
                 Node::Neg(a) => (-all[a], forms[a].minus()),
                 Node::Sin(j) => alone(turned(j)[0]),

@@ -91,14 +91,23 @@ impl Rounded {
 
     /// x y, which is known to lie in `value`.
     pub fn product(self, b: Self, value: Interval) -> Self {
-        let (x, y) = (self.magnitude(), b.magnitude());
-        let carried = (x * b.error + y * self.error + self.error * b.error) * SPARE;
+        let carried = self.carried(b);
         if self.is_power_of_two() || b.is_power_of_two() {
             let fits = value.magnitude() + carried < self.format.most;
             let error = if fits { carried + self.format.underflow } else { f64::INFINITY };
             return Self { value, error, ..self };
         }
         Self::once(value, carried, self.format)
+    }
+
+    /// x y + c or the like with other signs, which is known to lie in `value`: rounded once.
+    pub fn mul_add(self, y: Self, c: Self, value: Interval) -> Self {
+        Self::once(value, self.carried(y) + c.error, self.format)
+    }
+
+    /// What the errors of x and y do to x y.
+    fn carried(self, y: Self) -> f64 {
+        (self.magnitude() * y.error + y.magnitude() * self.error + self.error * y.error) * SPARE
     }
 
     /// |x|.
