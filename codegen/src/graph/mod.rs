@@ -10,6 +10,7 @@ mod interpret;
 mod inverse;
 mod node;
 mod rounding;
+mod sensitivity;
 mod slopes;
 #[cfg(test)]
 mod tests;

@@ -35,13 +35,18 @@ impl Graph {
             Node::Select(by, ..) if all[by].sign_may_change() => all[by].error,
             _ => 0.0,
         };
+        // In f64 the errors are so small that the first bound is enough.
+        let bound = |&output: &usize| match format == Format::SINGLE {
+            true => less(self.by_slopes(&all, output), all[output].error),
+            false => all[output].error,
+        };
         Roundings {
-            outputs: self.outputs.iter().map(|&output| all[output].error).collect(),
+            outputs: self.outputs.iter().map(bound).collect(),
             sign: self.nodes.iter().map(sign).fold(0.0, f64::max),
         }
     }
 
-    fn rounded_nodes(&self, inputs: &impl Inputs, format: Format) -> Vec<Rounded> {
+    pub(super) fn rounded_nodes(&self, inputs: &impl Inputs, format: Format) -> Vec<Rounded> {
         let sine = if format == Format::SINGLE { self.sines.single_error } else { self.sines.error };
         let turned = |j: usize| {
             // A part of an angle is a power of 2 less: exact.
@@ -96,6 +101,11 @@ impl Graph {
         }
         all
     }
+}
+
+/// The smaller bound; `second` where the first is NaN.
+fn less(first: f64, second: f64) -> f64 {
+    if first < second { first } else { second }
 }
 
 /// An input as a sum of unknowns: a measured one is the desired one and its error.
