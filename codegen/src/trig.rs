@@ -56,17 +56,27 @@ pub struct Trig {
 pub trait Angle: Real {
     /// (sin, cos) of `self` in rad.
     fn sin_cos_by(self, sines: &Trig) -> (Self, Self);
+    /// `self` · `by` + `added`, rounded once.
+    fn mul_add(self, by: Self, added: Self) -> Self;
 }
 
 impl Angle for f64 {
     fn sin_cos_by(self, sines: &Trig) -> (Self, Self) {
         (sines.double)(self)
     }
+
+    fn mul_add(self, by: f64, added: f64) -> f64 {
+        f64::mul_add(self, by, added)
+    }
 }
 
 impl Angle for f32 {
     fn sin_cos_by(self, sines: &Trig) -> (Self, Self) {
         (sines.single)(self)
+    }
+
+    fn mul_add(self, by: f32, added: f32) -> f32 {
+        f32::mul_add(self, by, added)
     }
 }
 

@@ -30,6 +30,9 @@ REDUCED = {
     "panda": ("tests/data/panda.json", "in a tube of 0.05 rad around a motion", {"1": 0.01, "5": 0.05}),
 }
 
+# The field `emit` by what the rows call it.
+FORMS = {"libm": {}, "polynomial": {"trig": "polynomial"}, "fused": {"trig": "polynomial", "fma": True}}
+
 STATES = 512
 SPEED, ACCELERATION = 2.0, 10.0
 
@@ -98,8 +101,7 @@ class Source:
         # A tube needs a motion; without one the model holds over the whole workspace.
         if "motion" not in spec and "measure" in spec:
             kept["measure"] = spec["measure"]
-        kept |= {"name": f"{self.name}_{trig}", "model": "exact"}
-        return kept if trig == "libm" else kept | {"emit": {"trig": trig}}
+        return emitted(kept | {"name": f"{self.name}_{trig}", "model": "exact"}, trig)
 
 
 def sources(arguments):
@@ -143,7 +145,12 @@ def reduced_specification(name, tolerance, trig):
     spec = read(ROOT / source)
     kept = {key: spec[key] for key in ("arm", "motion", "measure") if key in spec}
     kept |= {"name": f"{name}_within_{tolerance}_{trig}", "model": {"tolerance": {"torque": tolerances[tolerance]}}}
-    return kept if trig == "libm" else kept | {"emit": {"trig": trig}}
+    return emitted(kept, trig)
+
+
+def emitted(spec, trig):
+    """The specification with the field `emit` of a form."""
+    return spec | {"emit": FORMS[trig]} if FORMS[trig] else spec
 
 
 def read(source):

@@ -16,7 +16,7 @@ import subprocess
 from pathlib import Path
 
 import step
-from arms import KNOWN, REDUCED, ROOT, STATES, Arm, reduced_specification, sources
+from arms import FORMS, KNOWN, REDUCED, ROOT, STATES, Arm, reduced_specification, sources
 from builds import BUILD, HERE, PROCESSOR, PYTHON, VERSIONS, Natives
 from builds import cargo, casadi_program, check_processor, install, install_callgrind
 from measure import AGREEMENT, Program, deviation, nanoseconds, run
@@ -61,14 +61,14 @@ def generated(arms, gramforge):
     folder.mkdir(exist_ok=True)
     trigs, modules = ["libm"], {"arms": [], "steps": []}
     for list_name, name, specify in kinds(arms):
-        for trig in ("libm", "polynomial"):
+        for trig in FORMS:
             path = BUILD / f"{name}_{trig}.json"
             path.write_text(json.dumps(specify(trig), indent=2))
             command = [gramforge, "generate", path, "--out", folder, "--json"]
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
             done = subprocess.run([str(x) for x in command], capture_output=True, text=True)
             after = resource.getrusage(resource.RUSAGE_CHILDREN)
-            if done.returncode == 2 and trig == "polynomial" and "emit" in done.stderr:
+            if done.returncode == 2 and trig != "libm" and "emit" in done.stderr:
                 continue
             if done.returncode != 0:
                 raise SystemExit(done.stderr)
@@ -89,6 +89,11 @@ def module(path):
     return f"{path.stem} {model} {joints}"
 
 
+def counted(operations):
+    """Arithmetic operations; a multiplication and an addition that are fused are one."""
+    return sum(operations.get(kind, 0) for kind in ("mul", "add", "fused", "div"))
+
+
 def casadi_models(natives):
     """Title and name of each model that CasADi makes."""
     models = {"CasADi C, plain recursion": "plain"}
@@ -106,7 +111,7 @@ def implementations(arm, natives, trigs, made):
         module, said = f"{arm.name}_{trig}", made[arm.name, trig]
         program = Program([binary, module, states], binary, rf"{module}.*measured", "*::measured*")
         count = said["operations"]
-        figures = {"operations": count["mul"] + count["add"] + count.get("div", 0), "seconds": said["seconds"]}
+        figures = {"operations": counted(count), "seconds": said["seconds"]}
         rows.append((f"Gramforge exact, {trig}", program, figures | {"form": said["form"]}))
     functions = r"^(measured|passivity|casadi_f0|casadi_sq)(\..*)?$"
     makers = {"plain": [PYTHON, HERE / "casadi_code.py", arm.path], "pinocchio": [BUILD / "pinocchio_casadi", model]}
@@ -170,7 +175,7 @@ def reduced(arm, trigs, made, rows):
                 {
                     "tolerance": tolerances[tolerance],
                     "trig": trig,
-                    "operations": count["mul"] + count["add"],
+                    "operations": counted(count),
                     "certified": max(error / peak for error, peak in errors),
                     "instructions": instructions,
                     "parts": parts,

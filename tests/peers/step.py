@@ -3,6 +3,7 @@
 import random
 import subprocess
 
+import arms
 from arms import REDUCED, ROOT, STATES, read, text
 from builds import BUILD, HERE, OPTIMISED
 from measure import AGREEMENT, Program, deviation, run
@@ -32,8 +33,7 @@ def kinds(arm):
 
 
 def emitted(spec, name, trig):
-    spec = spec | {"name": f"{name}_{trig}"}
-    return spec if trig == "libm" else spec | {"emit": {"trig": trig}}
+    return arms.emitted(spec | {"name": f"{name}_{trig}"}, trig)
 
 
 def states(arm):

@@ -15,29 +15,37 @@ pub struct Program(PathBuf);
 /// One call of a module's passivity torque: q, q̇, v_r and a_r, one after the other.
 pub type Call = (usize, Vec<f64>);
 
-/// Compiles `modules` in `folder`, with the lock file and without a network.
-pub fn compile(folder: &Path, modules: &[Module]) -> Program {
+/// Makes a program `scratch` of `main` in `folder`, about the runtime with these features, with the lock file of the workspace.
+pub fn package(folder: &Path, features: &[&str], main: &str) {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let source = folder.join("src");
     std::fs::create_dir_all(&source).expect("a folder");
     let runtime = here.join("../runtime").canonicalize().expect("the runtime");
     let manifest = format!(
         "[package]\nname = \"scratch\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[dependencies]\n\
-         gramforge-runtime = {{ path = {runtime:?} }}\n\n[profile.dev]\nopt-level = 0\ndebug = false\n\n[workspace]\n"
+         gramforge-runtime = {{ path = {runtime:?}, features = {features:?} }}\n\n[profile.dev]\nopt-level = 0\ndebug = false\n\n[workspace]\n"
     );
     std::fs::write(folder.join("Cargo.toml"), manifest).expect("a manifest");
     std::fs::copy(here.join("../Cargo.lock"), folder.join("Cargo.lock")).expect("the lock file");
+    std::fs::write(source.join("main.rs"), main).expect("a program");
+}
+
+/// Compiles `modules` in `folder`, with the lock file and without a network.
+pub fn compile(folder: &Path, modules: &[Module]) -> Program {
+    let source = folder.join("src");
     let mut main = String::from(MAIN);
     let mut arms = String::new();
-    for (index, (name, joints, text)) in modules.iter().enumerate() {
-        std::fs::write(source.join(format!("{name}.rs")), text).expect("a module");
+    for (index, (name, joints, _)) in modules.iter().enumerate() {
         writeln!(main, "#[allow(dead_code)] mod {name} {{ include!(\"{name}.rs\"); }}").expect("text");
         let model = gramforge::internals::emit::type_name(name);
         writeln!(arms, "        {index} => torque::<{joints}>(&{name}::{model}, &x),").expect("text");
     }
     write!(main, "fn called(index: usize, x: Vec<f64>) -> Vec<f64> {{\n    match index {{\n{arms}        _ => Vec::new(),\n    }}\n}}\n")
         .expect("text");
-    std::fs::write(source.join("main.rs"), main).expect("a program");
+    package(folder, &[], &main);
+    for (name, _, text) in modules {
+        std::fs::write(source.join(format!("{name}.rs")), text).expect("a module");
+    }
     let built = cargo(folder, &["build", "--offline", "--quiet"]).output().expect("cargo starts");
     assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
     Program(folder.join("target/debug/scratch"))
@@ -62,25 +70,30 @@ pub fn cargo(folder: &Path, arguments: &[&str]) -> Command {
 impl Program {
     /// The torques of all calls, N·m or N.
     pub fn torques(&self, calls: &[Call]) -> Vec<Vec<f64>> {
-        let mut child = Command::new(&self.0)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .expect("the program starts");
-        let mut input = String::new();
-        for (index, x) in calls {
-            write!(input, "{index}").expect("text");
-            x.iter().for_each(|x| write!(input, " {:x}", x.to_bits()).expect("text"));
-            input.push('\n');
-        }
-        let mut pipe = child.stdin.take().expect("a pipe");
-        let writer = std::thread::spawn(move || pipe.write_all(input.as_bytes()));
-        let output = child.wait_with_output().expect("the program ends");
-        writer.join().expect("a thread").expect("all calls are read");
-        let number = |word: &str| f64::from_bits(u64::from_str_radix(word, 16).expect("bits"));
-        let text = String::from_utf8(output.stdout).expect("text");
-        text.lines().map(|line| line.split_whitespace().map(number).collect()).collect()
+        called(&self.0, calls.iter().map(|(index, x)| (index.to_string(), x.as_slice())))
     }
+}
+
+/// What `program` answers to `calls`: a line for each, its words and then its numbers by their bits.
+pub fn called<'a>(program: &Path, calls: impl Iterator<Item = (String, &'a [f64])>) -> Vec<Vec<f64>> {
+    let mut child = Command::new(program)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let mut input = String::new();
+    for (words, x) in calls {
+        input.push_str(&words);
+        x.iter().for_each(|x| write!(input, " {:x}", x.to_bits()).expect("text"));
+        input.push('\n');
+    }
+    let mut pipe = child.stdin.take().expect("a pipe");
+    let writer = std::thread::spawn(move || pipe.write_all(input.as_bytes()));
+    let output = child.wait_with_output().expect("the program ends");
+    writer.join().expect("a thread").expect("all calls are read");
+    let number = |word: &str| f64::from_bits(u64::from_str_radix(word, 16).expect("bits"));
+    let text = String::from_utf8(output.stdout).expect("text");
+    text.lines().map(|line| line.split_whitespace().map(number).collect()).collect()
 }
 
 const MAIN: &str = r#"use gramforge_runtime::Model;

@@ -27,6 +27,10 @@ pub(super) fn check(spec: &Spec, faults: &mut Diagnostics) {
         let problem = "is \"std\", which puts the standard library into the C library: two of these do not link into one program";
         faults.push("emit.trig", problem, "write \"polynomial\", or remove `emit.c_api`");
     }
+    if spec.emit.fma {
+        let problem = "needs the standard library, and two C libraries with it do not link into one program";
+        faults.push("emit.fma", problem, "remove `emit.fma` or `emit.c_api`");
+    }
     let name = spec.name.as_str();
     if LIBRARY.contains(&name) || FAMILIES.iter().any(|start| name.starts_with(start)) {
         let problem =

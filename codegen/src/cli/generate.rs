@@ -80,7 +80,6 @@ impl Generate {
             (false, true) => "written",
             (false, false) => "unchanged",
         };
-        let cost = |o: &Operations| format!("{} mul, {} add, {} sin-cos pairs", o.mul, o.add, o.trig_pairs);
         let torque = output.generation.torque();
         let error = torque.map_or(String::new(), |torque| format!(" {}", torque_in_words(torque)));
         let line = format!(
@@ -88,8 +87,8 @@ impl Generate {
             view.path,
             state(view.written),
             view.bytes,
-            cost(&view.operations),
-            cost(&view.exact_operations),
+            view.operations,
+            view.exact_operations,
             view.verdict
         );
         let beside = view.c_files.iter().map(|file| format!("{}: {}\n", file.path, state(file.written)));

@@ -19,15 +19,13 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
         ("MULTIPLICATIONS", operations.mul, " Multiplications in one passivity torque."),
         ("ADDITIONS", operations.add, " Additions, subtractions and negations in one passivity torque."),
         ("TRIG_PAIRS", operations.trig_pairs, " Joints whose sine and cosine one passivity torque takes."),
-    ]
-    .map(|(name, number, doc)| {
-        let (name, number) = (Ident::new(name, Span::call_site()), count(number));
-        quote! {
-            #[doc = #doc]
-            #unused
-            pub const #name: usize = #number;
-        }
-    });
+    ];
+    let fused = (
+        "FUSED_MULTIPLY_ADDS",
+        operations.fused,
+        " Multiplications together with an addition in one passivity torque.",
+    );
+    let counts = counted(counts.into_iter().chain(module.model.code.fma.then_some(fused)));
     let viscous: Vec<f64> = module.arm.joints.iter().map(|joint| joint.viscous_friction).collect();
     let numbers = module.numbers();
     let (scalar, viscous) = (numbers.name(), numbers.vector(&viscous)?);
@@ -42,7 +40,7 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
         /// The kept functions, in the order of the model's documentation.
         #unused
         pub const PSI: [&str; #xi] = [#(#psi),*];
-        #(#counts)*
+        #counts
         /// Diagonal of B, N·m·s/rad or N·s/m.
         #constant
         pub const VISCOUS_FRICTION: [#scalar; #n] = #viscous;
@@ -50,6 +48,20 @@ pub(super) fn constants(module: &Module) -> Result<TokenStream, Error> {
         #constant
         pub const BOUNDS: ::gramforge_runtime::Bounds<#scalar, #n> = #bounds;
     })
+}
+
+/// Constants for numbers of operations.
+pub(super) fn counted(counts: impl IntoIterator<Item = (&'static str, usize, &'static str)>) -> TokenStream {
+    let unused = unused();
+    let counts = counts.into_iter().map(|(name, number, doc)| {
+        let (name, number) = (Ident::new(name, Span::call_site()), count(number));
+        quote! {
+            #[doc = #doc]
+            #unused
+            pub const #name: usize = #number;
+        }
+    });
+    quote!(#(#counts)*)
 }
 
 fn bounds(bounds: &Bounds, numbers: Numbers) -> Result<TokenStream, Error> {

@@ -3,6 +3,7 @@
 use super::Module;
 use crate::bounds::{Met, Torque, percent_up, printed_down, printed_up};
 use crate::domain::Domain;
+use crate::graph::Operations;
 use crate::lagrangian::{Coordinates, Lagrangian};
 use crate::reduction::{Kind as ModelKind, Reduced};
 use crate::spec::ScalarSpec;
@@ -42,11 +43,11 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     if let Some(absolute) = module.model.reduced.sparse().and_then(|model| model.absolute.as_ref()) {
         lines.extend([angles(&absolute.coordinates), String::new()]);
     }
-    let cost = |o: &crate::graph::Operations| {
-        format!("{} multiplications, {} additions, {} sine-cosine pairs", o.mul, o.add, o.trig_pairs)
-    };
     lines.push(format!(" One passivity torque: {}.", cost(&operations)));
     lines.push(String::new());
+    if module.model.code.fma {
+        lines.extend([FUSED.to_string(), String::new()]);
+    }
     let sines = &module.model.code.sines;
     if let Some(line) = taken(sines, module.scalar) {
         lines.extend([line, String::new()]);
@@ -64,6 +65,17 @@ pub(super) fn model(module: &Module) -> Vec<String> {
     lines.push(left_out(module));
     lines.extend(uncertain(module));
     lines
+}
+
+/// What a module with fused operations needs.
+const FUSED: &str = " A fused multiply-add is one operation and rounds once. The module needs the feature `std` of \
+                     gramforge-runtime and compiles only for a processor that has the instruction.";
+
+/// Operations in words.
+pub(super) fn cost(operations: &Operations) -> String {
+    let Operations { mul, add, fused, trig_pairs, .. } = operations;
+    let fused = if *fused > 0 { format!(", {fused} fused multiply-adds") } else { String::new() };
+    format!("{mul} multiplications, {add} additions{fused}, {trig_pairs} sine-cosine pairs")
 }
 
 /// Which kind of model it is, with `count` kept functions.

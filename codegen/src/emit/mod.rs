@@ -4,6 +4,7 @@ mod c_header;
 mod constants;
 mod controller;
 mod docs;
+mod fused;
 mod guarantee;
 mod literal;
 mod names;
@@ -114,7 +115,10 @@ pub fn emit(module: &Module) -> Result<String, Error> {
     let body = statements::body(&module.model.code, numbers)?;
     let table = trig::table(&module.model.code.sines, numbers)?;
     let (unused, plain) = (unused(), plain_numbers());
+    let needs = fused::needs(module);
     let tokens = quote! {
+        #needs
+
         #(#[doc = #docs])*
         #unused
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

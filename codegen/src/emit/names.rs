@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use proc_macro2::{Ident, Span};
 
-use crate::graph::{Node, NodeId, Variable};
+use crate::graph::{Node, NodeId, Signs, Variable};
 
 /// Longer descriptions are replaced by a short sum of their letters.
 const LONGEST: usize = 32;
@@ -46,7 +46,7 @@ impl Names {
     fn description(&self, node: &Node) -> String {
         let of = |id: NodeId| self.described.get(id).map_or("", String::as_str);
         // Constants change with the size of a model; what they stand in does not.
-        let joined = |a: NodeId, word: &str, b: NodeId| match (of(a), of(b)) {
+        let joined = |a: &str, word: &str, b: &str| match (a, b) {
             ("", other) | (other, "") => other.to_string(),
             (a, b) => format!("{a}{word}{b}"),
         };
@@ -55,9 +55,14 @@ impl Names {
             Node::Sin(j) => format!("sin_q{}", j + 1),
             Node::Cos(j) => format!("cos_q{}", j + 1),
             Node::Constant(_) => String::new(),
-            Node::Add(a, b) => joined(a, "_plus_", b),
-            Node::Sub(a, b) => joined(a, "_less_", b),
-            Node::Mul(a, b) => joined(a, "_", b),
+            Node::Add(a, b) => joined(of(a), "_plus_", of(b)),
+            Node::Sub(a, b) => joined(of(a), "_less_", of(b)),
+            Node::Mul(a, b) => joined(of(a), "_", of(b)),
+            Node::MulAdd(signs, a, b, c) => match (joined(of(a), "_", of(b)), of(c), signs) {
+                (product, added, Signs::Plus) => joined(&product, "_plus_", added),
+                (product, added, Signs::Minus) => joined(&product, "_less_", added),
+                (product, added, Signs::From) => joined(added, "_less_", &product),
+            },
             Node::Neg(a) => format!("minus_{}", of(a)),
             Node::Abs(a) => format!("{}_abs", of(a)),
             Node::Clamp(a, ..) => format!("{}_clamped", of(a)),

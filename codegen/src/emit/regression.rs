@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use super::docs::cost;
 use super::literal::count;
 use super::{Module, constant, plain_numbers, spaced, statements, unused};
 use crate::error::Error;
@@ -15,10 +16,8 @@ pub(super) fn regression(module: &Module, model: &Ident) -> Result<TokenStream, 
     let (joints, parameters) = (count(n), count(regressor.parameters));
     let operations = regressor.code.operations();
     let doc = format!(
-        " base + Yθ in {} multiplications, {} additions, {} sine-cosine pairs{}.",
-        operations.mul,
-        operations.add,
-        operations.trig_pairs,
+        " base + Yθ in {}{}.",
+        cost(&operations),
         if regressor.own_base { ", and those of one passivity torque" } else { "" }
     );
     let inputs = if regressor.own_base {

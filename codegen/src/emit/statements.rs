@@ -9,7 +9,7 @@ use super::literal::Numbers;
 use super::names::Names;
 use super::{literal, spaced, trig};
 use crate::error::Error;
-use crate::graph::{Graph, Node, NodeId, Variable};
+use crate::graph::{Graph, Node, NodeId, Signs, Variable};
 
 /// Expressions with more operations than this get a line of their own: beyond it nobody reads them.
 const LONG: usize = 10;
@@ -177,6 +177,23 @@ fn write(graph: &Graph, node: Node, written: &[Written], numbers: Numbers) -> Re
         // A product rounds alike in either order; constants read better in front.
         Node::Mul(a, b) if constant(b) => joined(b, a, Binding::Product, Binding::Unary, quote!(*)),
         Node::Mul(a, b) => joined(a, b, Binding::Product, Binding::Unary, quote!(*)),
+        Node::MulAdd(signs, a, b, added) => {
+            let negated = |id: NodeId| {
+                let operand = written[id].within(Binding::Atom);
+                quote!(-#operand)
+            };
+            let plain = |id: NodeId| written[id].tokens.clone();
+            // A product rounds alike in either order; constants read better in front.
+            let (a, b) = if constant(b) { (b, a) } else { (a, b) };
+            let (first, last) = match signs {
+                Signs::Plus => (plain(a), plain(added)),
+                Signs::Minus => (plain(a), negated(added)),
+                Signs::From => (negated(a), plain(added)),
+            };
+            let second = plain(b);
+            let operations = [a, b, added].map(|id| written[id].operations).iter().sum::<usize>() + 2;
+            Written { tokens: quote!(mul_add(#first, #second, #last)), binding: Binding::Atom, operations }
+        }
         Node::Neg(a) => {
             let operand = written[a].within(Binding::Atom);
             Written {

@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use super::constants::counted;
 use super::literal::count;
 use super::{Module, plain_numbers, spaced, statements, unused};
 use crate::control::StepGraph;
@@ -82,7 +83,6 @@ pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<T
 /// What one step computes, the desired motion apart.
 fn counts(step: &StepGraph) -> TokenStream {
     let operations = step.operations();
-    let unused = unused();
     let counts = [
         ("STEP_MULTIPLICATIONS", operations.mul, " Multiplications in one control step, law and model."),
         (
@@ -91,14 +91,11 @@ fn counts(step: &StepGraph) -> TokenStream {
             " Additions, subtractions, negations and absolute values in one control step.",
         ),
         ("STEP_CLAMPS", operations.other, " Numbers that one control step clamps or chooses by a sign."),
-    ]
-    .map(|(name, number, doc)| {
-        let (name, number) = (format_ident!("{name}"), count(number));
-        quote! {
-            #[doc = #doc]
-            #unused
-            pub const #name: usize = #number;
-        }
-    });
-    quote!(#(#counts)*)
+    ];
+    let fused = (
+        "STEP_FUSED_MULTIPLY_ADDS",
+        operations.fused,
+        " Multiplications together with an addition in one control step.",
+    );
+    counted(counts.into_iter().chain(step.code.fma.then_some(fused)))
 }

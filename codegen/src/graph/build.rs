@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-use super::node::{Name, Node, NodeId, Variable};
+use super::node::{Name, Node, NodeId, Signs, Variable};
 use super::{Expr, Graph, Operations};
 use crate::lagrangian::{MAX_JOINTS, WHOLE};
 use crate::trig::Trig;
@@ -109,6 +109,7 @@ impl Builder {
             outputs: Vec::new(),
             sines: Trig::default(),
             parts: parts.unwrap_or(WHOLE),
+            fma: false,
         };
         for (id, (node, name)) in nodes.into_iter().zip(names).enumerate() {
             if needed[id] {
@@ -156,8 +157,8 @@ impl Builder {
         all().all(Node::is_finite).then(|| Operations::of(all(), &parts.unwrap_or(WHOLE)))
     }
 
-    /// The nodes of `graph` once more, with `leaf` in place of its inputs, sines and cosines; folded and shared anew. `name`
-    /// gives the new name of a node from the old one.
+    /// The nodes of `graph` once more, with `leaf` in place of its inputs, sines and cosines; folded and shared anew, and
+    /// products apart from sums, as another sum may need them. `name` gives the new name of a node from the old one.
     pub fn embed<'g>(
         &'g self,
         graph: &Graph,
@@ -165,6 +166,12 @@ impl Builder {
         name: impl Fn(&str) -> Option<String>,
     ) -> Vec<Expr<'g>> {
         let mut new: Vec<Expr<'g>> = Vec::with_capacity(graph.nodes.len());
+        // A negative constant keeps its sign, so that what it makes keeps its name.
+        let product = |new: &[Expr<'g>], a: NodeId, b: NodeId| match (graph.negative(a), graph.negative(b)) {
+            (Some(k), _) => new[b].scaled(k),
+            (None, Some(k)) => new[a].scaled(k),
+            (None, None) => new[a] * new[b],
+        };
         for (node, old) in graph.nodes.iter().zip(&graph.names) {
             let value = match *node {
                 Node::Input(variable) => leaf(Leaf::Input(variable)),
@@ -173,12 +180,10 @@ impl Builder {
                 Node::Constant(bits) => self.constant(f64::from_bits(bits)),
                 Node::Add(a, b) => new[a] + new[b],
                 Node::Sub(a, b) => new[a] - new[b],
-                // A negative constant keeps its sign, so that what it makes keeps its name.
-                Node::Mul(a, b) => match (graph.negative(a), graph.negative(b)) {
-                    (Some(k), _) => new[b].scaled(k),
-                    (None, Some(k)) => new[a].scaled(k),
-                    (None, None) => new[a] * new[b],
-                },
+                Node::Mul(a, b) => product(&new, a, b),
+                Node::MulAdd(Signs::Plus, a, b, c) => product(&new, a, b) + new[c],
+                Node::MulAdd(Signs::Minus, a, b, c) => product(&new, a, b) - new[c],
+                Node::MulAdd(Signs::From, a, b, c) => new[c] - product(&new, a, b),
                 Node::Neg(a) => -new[a],
                 Node::Abs(a) => new[a].abs(),
                 Node::Clamp(a, low, high) => new[a].clamp(new[low], new[high]),

@@ -1,5 +1,7 @@
 //! What a graph costs.
 
+use std::fmt;
+
 use serde::Serialize;
 
 use super::{Graph, Node};
@@ -20,6 +22,8 @@ pub struct Operations {
     pub mul: usize,
     /// Additions, subtractions, negations and absolute values.
     pub add: usize,
+    /// Multiplications together with an addition or subtraction, rounded once: one operation each.
+    pub fused: usize,
     /// Numbers that are clamped, and choices by a sign.
     pub other: usize,
     /// Divisions.
@@ -31,13 +35,18 @@ pub struct Operations {
 impl Operations {
     /// All but sines and cosines together.
     pub fn arithmetic(&self) -> usize {
-        self.mul + self.add + self.other + self.div
+        self.mul + self.add + self.fused + self.other + self.div
     }
 
     /// What code is compared by: multiplications and additions, with every clamp, division and pair of sine and cosine as
-    /// 2, 5 and [`TRIG_PAIR`].
+    /// 2, 5 and [`TRIG_PAIR`], and a multiplication together with an addition as 1.
     pub fn cost(&self) -> usize {
-        self.mul + self.add + CLAMP * self.other + DIVISION * self.div + TRIG_PAIR * self.trig_pairs
+        self.mul
+            + self.add
+            + self.fused
+            + CLAMP * self.other
+            + DIVISION * self.div
+            + TRIG_PAIR * self.trig_pairs
     }
 
     /// Those of `nodes`, where sines and cosines are of angles divided by `parts`.
@@ -48,6 +57,7 @@ impl Operations {
             match *node {
                 Node::Mul(..) => count.mul += 1,
                 Node::Add(..) | Node::Sub(..) | Node::Neg(_) | Node::Abs(_) => count.add += 1,
+                Node::MulAdd(..) => count.fused += 1,
                 Node::Clamp(..) | Node::Select(..) => count.other += 1,
                 Node::Sin(joint) | Node::Cos(joint) if !turned.contains(&joint) => turned.push(joint),
                 Node::Sin(_) | Node::Cos(_) | Node::Input(_) | Node::Constant(_) => {}
@@ -56,6 +66,16 @@ impl Operations {
         count.mul += turned.iter().filter(|&&joint| parts.get(joint).is_some_and(|&part| part != 1)).count();
         count.trig_pairs = turned.len();
         count
+    }
+}
+
+impl fmt::Display for Operations {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} mul, {} add, ", self.mul, self.add)?;
+        if self.fused > 0 {
+            write!(f, "{} mul-add, ", self.fused)?;
+        }
+        write!(f, "{} sin-cos pairs", self.trig_pairs)
     }
 }
 

@@ -55,6 +55,10 @@ impl Graph {
                 Node::Add(a, b) => values[a] + values[b],
                 Node::Sub(a, b) => values[a] - values[b],
                 Node::Mul(a, b) => values[a] * values[b],
+                Node::MulAdd(signs, a, b, c) => {
+                    let (first, added) = signs.given(values[a], values[c]);
+                    first.mul_add(values[b], added)
+                }
                 Node::Neg(a) => -values[a],
                 Node::Abs(a) => values[a].abs(),
                 Node::Clamp(a, low, high) => step::clamp(values[a], values[low], values[high]),

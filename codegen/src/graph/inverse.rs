@@ -18,7 +18,7 @@ impl Graph {
         };
         let new = builder.embed(self, leaf, |name| Some(name.to_string()));
         let outputs: Vec<_> = self.outputs.iter().map(|&output| new[output].id()).collect();
-        Graph { sines: self.sines.clone(), ..builder.finish(&outputs).factored() }
+        self.alike(builder.finish(&outputs).factored())
     }
 }
 

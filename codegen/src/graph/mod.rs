@@ -5,10 +5,12 @@ mod build;
 mod count;
 mod expr;
 mod factor;
+mod fused;
 mod interpret;
 mod inverse;
 mod node;
 mod rounding;
+mod sensitivity;
 mod slopes;
 #[cfg(test)]
 mod tests;
@@ -16,7 +18,7 @@ mod tests;
 pub use build::{Builder, Leaf};
 pub use count::{Operations, TRIG_PAIR};
 pub use expr::Expr;
-pub use node::{Name, Node, NodeId, Variable};
+pub use node::{Name, Node, NodeId, Signs, Variable};
 pub use rounding::Inputs;
 use serde::{Deserialize, Serialize};
 
@@ -41,6 +43,8 @@ pub struct Graph {
     pub sines: Trig,
     /// By joint the power of 2 by which its angle is divided before its sine and cosine are taken; mostly 1.
     pub parts: [u8; MAX_JOINTS],
+    /// True where products are computed together with the sums that they stand in: [`Graph::fused`].
+    pub fma: bool,
 }
 
 impl Graph {

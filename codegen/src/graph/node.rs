@@ -1,5 +1,7 @@
 //! Nodes of the graph.
 
+use std::ops::Neg;
+
 use serde::{Deserialize, Serialize};
 
 /// Index of a node in its graph.
@@ -43,6 +45,8 @@ pub enum Node {
     Sub(NodeId, NodeId),
     /// a · b.
     Mul(NodeId, NodeId),
+    /// a · b and c in one operation, rounded once.
+    MulAdd(Signs, NodeId, NodeId, NodeId),
     /// −a.
     Neg(NodeId),
     /// |a|.
@@ -54,12 +58,35 @@ pub enum Node {
     Select(NodeId, NodeId, NodeId, NodeId),
 }
 
+/// The signs of a product and what is added to it. A number is negated without an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub enum Signs {
+    /// a · b + c.
+    Plus,
+    /// a · b − c.
+    Minus,
+    /// c − a · b.
+    From,
+}
+
+impl Signs {
+    /// `a` and `c` with their signs, so that the operation is a · b + c.
+    pub fn given<T: Neg<Output = T>>(self, a: T, c: T) -> (T, T) {
+        match self {
+            Self::Plus => (a, c),
+            Self::Minus => (a, -c),
+            Self::From => (-a, c),
+        }
+    }
+}
+
 impl Node {
     /// The operands, none to four.
     pub fn operands(&self) -> impl Iterator<Item = NodeId> + use<> {
         let operands = match *self {
             Node::Add(a, b) | Node::Sub(a, b) | Node::Mul(a, b) => [Some(a), Some(b), None, None],
             Node::Neg(a) | Node::Abs(a) => [Some(a), None, None, None],
+            Node::MulAdd(_, a, b, c) => [Some(a), Some(b), Some(c), None],
             Node::Clamp(a, low, high) => [Some(a), Some(low), Some(high), None],
             Node::Select(a, above, below, otherwise) => [Some(a), Some(above), Some(below), Some(otherwise)],
             Node::Input(_) | Node::Sin(_) | Node::Cos(_) | Node::Constant(_) => [None; 4],
@@ -81,6 +108,7 @@ impl Node {
             Node::Add(a, b) => Node::Add(new(a), new(b)),
             Node::Sub(a, b) => Node::Sub(new(a), new(b)),
             Node::Mul(a, b) => Node::Mul(new(a), new(b)),
+            Node::MulAdd(signs, a, b, c) => Node::MulAdd(signs, new(a), new(b), new(c)),
             Node::Neg(a) => Node::Neg(new(a)),
             Node::Abs(a) => Node::Abs(new(a)),
             Node::Clamp(a, low, high) => Node::Clamp(new(a), new(low), new(high)),

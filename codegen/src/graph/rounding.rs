@@ -35,13 +35,18 @@ impl Graph {
             Node::Select(by, ..) if all[by].sign_may_change() => all[by].error,
             _ => 0.0,
         };
+        // In f64 the errors are so small that the first bound is enough.
+        let bound = |&output: &usize| match format == Format::SINGLE {
+            true => less(self.by_slopes(&all, output), all[output].error),
+            false => all[output].error,
+        };
         Roundings {
-            outputs: self.outputs.iter().map(|&output| all[output].error).collect(),
+            outputs: self.outputs.iter().map(bound).collect(),
             sign: self.nodes.iter().map(sign).fold(0.0, f64::max),
         }
     }
 
-    fn rounded_nodes(&self, inputs: &impl Inputs, format: Format) -> Vec<Rounded> {
+    pub(super) fn rounded_nodes(&self, inputs: &impl Inputs, format: Format) -> Vec<Rounded> {
         let sine = if format == Format::SINGLE { self.sines.single_error } else { self.sines.error };
         let turned = |j: usize| {
             // A part of an angle is a power of 2 less: exact.
@@ -57,6 +62,13 @@ impl Graph {
             let sum = |a: usize, b: usize, interval: Interval, form: Affine| {
                 (all[a].sum(all[b], interval.meet(form.range())), form)
             };
+            let product = |a: usize, b: usize| {
+                let form = forms[a].times(&forms[b]);
+                let Interval { low, high } = all[a].value * all[b].value;
+                // A square is not negative.
+                let low = if a == b { low.max(0.0) } else { low };
+                (Interval { low, high }.meet(form.range()), form)
+            };
             let (number, form) = match *node {
                 Node::Input(variable) => {
                     (Rounded::input(inputs.input(variable), format), unknown(inputs, variable))
@@ -64,11 +76,15 @@ impl Graph {
                 Node::Add(a, b) => sum(a, b, all[a].value + all[b].value, forms[a].plus(&forms[b])),
                 Node::Sub(a, b) => sum(a, b, all[a].value - all[b].value, forms[a].plus(&forms[b].minus())),
                 Node::Mul(a, b) => {
-                    let form = forms[a].times(&forms[b]);
-                    let Interval { low, high } = all[a].value * all[b].value;
-                    // A square is not negative.
-                    let low = if a == b { low.max(0.0) } else { low };
-                    (all[a].product(all[b], Interval { low, high }.meet(form.range())), form)
+                    let (value, form) = product(a, b);
+                    (all[a].product(all[b], value), form)
+                }
+                Node::MulAdd(signs, a, b, c) => {
+                    let (value, form) = product(a, b);
+                    let (value, added) = signs.given(value, all[c].value);
+                    let (form, added_form) = signs.given(form, forms[c]);
+                    let form = form.plus(&added_form);
+                    (all[a].mul_add(all[b], all[c], (value + added).meet(form.range())), form)
                 }
                 Node::Neg(a) => (-all[a], forms[a].minus()),
                 Node::Sin(j) => alone(turned(j)[0]),
@@ -85,6 +101,11 @@ impl Graph {
         }
         all
     }
+}
+
+/// The smaller bound; `second` where the first is NaN.
+fn less(first: f64, second: f64) -> f64 {
+    if first < second { first } else { second }
 }
 
 /// An input as a sum of unknowns: a measured one is the desired one and its error.

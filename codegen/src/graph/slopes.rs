@@ -30,6 +30,11 @@ impl Graph {
                 Node::Add(a, b) => (all[a].0 + all[b].0, all[a].1 + all[b].1),
                 Node::Sub(a, b) => (all[a].0 - all[b].0, all[a].1 - all[b].1),
                 Node::Mul(a, b) => (all[a].0 * all[b].0, all[a].1 * all[b].0 + all[a].0 * all[b].1),
+                Node::MulAdd(signs, a, b, c) => {
+                    let (first, added) = signs.given(all[a].0, all[c].0);
+                    let (first_slope, added_slope) = signs.given(all[a].1, all[c].1);
+                    (first * all[b].0 + added, first_slope * all[b].0 + first * all[b].1 + added_slope)
+                }
                 Node::Neg(a) => (-all[a].0, -all[a].1),
                 Node::Abs(a) if all[a].0 < 0.0 => (-all[a].0, -all[a].1),
                 Node::Abs(a) => all[a],

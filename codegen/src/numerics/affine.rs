@@ -3,6 +3,8 @@
 //! A rotation mixes two components by a sine and a cosine. As intervals each component grows by up to √2 at every joint; as sums of the
 //! same unknowns they turn and do not grow (Stolfi and de Figueiredo, Self-Validated Numerical Methods, 1997).
 
+use std::ops::Neg;
+
 use super::interval::Interval;
 
 /// Number of unknowns.
@@ -74,6 +76,13 @@ impl Affine {
         let products = self.radius() * y.radius();
         let slack = SLACK * UNKNOWNS as f64 * self.size() * y.size();
         Self { middle: a * b, parts, rest: a.abs() * y.rest + b.abs() * self.rest + products + slack }
+    }
+}
+
+impl Neg for Affine {
+    type Output = Self;
+    fn neg(self) -> Self {
+        self.minus()
     }
 }
 

@@ -35,24 +35,26 @@ pub struct Rounded {
     pub value: Interval,
     /// Bound on |computed − exact|; infinite or NaN where there is none.
     pub error: f64,
+    /// Bound on the part of the error that the number's own operation makes, its operands taken as they are computed.
+    pub own: f64,
     format: Format,
 }
 
 impl Rounded {
     /// 0 and 1 in IEEE single.
-    pub const ZERO_SINGLE: Self = Self { value: Interval::ZERO, error: 0.0, format: Format::SINGLE };
+    pub const ZERO_SINGLE: Self =
+        Self { value: Interval::ZERO, error: 0.0, own: 0.0, format: Format::SINGLE };
     /// 1 in IEEE single.
-    pub const ONE_SINGLE: Self =
-        Self { value: Interval { low: 1.0, high: 1.0 }, error: 0.0, format: Format::SINGLE };
+    pub const ONE_SINGLE: Self = Self { value: Interval { low: 1.0, high: 1.0 }, ..Self::ZERO_SINGLE };
 
     /// An input that lies in `value` and is a number of the format.
     pub fn input(value: Interval, format: Format) -> Self {
-        Self { value, error: 0.0, format }
+        Self::within(value, 0.0, format)
     }
 
     /// A number within `error` of one in `value`.
     pub fn within(value: Interval, error: f64, format: Format) -> Self {
-        Self { value, error, format }
+        Self { value, error, own: error, format }
     }
 
     /// A literal, rounded once.
@@ -61,7 +63,12 @@ impl Rounded {
             true => (f64::from(x as f32) - x).abs(),
             false => 0.0,
         };
-        Self { value: Interval::point(x), error, format }
+        Self::within(Interval::point(x), error, format)
+    }
+
+    /// Where the computed number lies.
+    pub fn widened(self) -> Interval {
+        self.value + Interval::about(0.0, self.error)
     }
 
     /// max |exact|.
@@ -72,9 +79,10 @@ impl Rounded {
     /// What is computed of `value` from operands whose errors lead to `carried`.
     fn once(value: Interval, carried: f64, format: Format) -> Self {
         let size = value.magnitude() + carried;
-        let error = (carried + format.unit * size + format.underflow) * SPARE;
         // What may be too large for the format has no bound.
-        Self { value, error: if size < format.most { error } else { f64::INFINITY }, format }
+        let fits = |error: f64| if size < format.most { error * SPARE } else { f64::INFINITY };
+        let error = fits(carried + format.unit * size + format.underflow);
+        Self { value, error, own: fits(format.unit * power_below(size * SPARE) + format.underflow), format }
     }
 
     /// The literal 2^k or −2^k, by which a product is exact but for underflow.
@@ -91,21 +99,31 @@ impl Rounded {
 
     /// x y, which is known to lie in `value`.
     pub fn product(self, b: Self, value: Interval) -> Self {
-        let (x, y) = (self.magnitude(), b.magnitude());
-        let carried = (x * b.error + y * self.error + self.error * b.error) * SPARE;
+        let carried = self.carried(b);
         if self.is_power_of_two() || b.is_power_of_two() {
             let fits = value.magnitude() + carried < self.format.most;
-            let error = if fits { carried + self.format.underflow } else { f64::INFINITY };
-            return Self { value, error, ..self };
+            let [error, own] = [carried + self.format.underflow, self.format.underflow]
+                .map(|error| if fits { error } else { f64::INFINITY });
+            return Self { value, error, own, ..self };
         }
         Self::once(value, carried, self.format)
+    }
+
+    /// x y + c or the like with other signs, which is known to lie in `value`: rounded once.
+    pub fn mul_add(self, y: Self, c: Self, value: Interval) -> Self {
+        Self::once(value, self.carried(y) + c.error, self.format)
+    }
+
+    /// What the errors of x and y do to x y.
+    fn carried(self, y: Self) -> f64 {
+        (self.magnitude() * y.error + y.magnitude() * self.error + self.error * y.error) * SPARE
     }
 
     /// |x|.
     pub fn abs(self) -> Self {
         let Interval { low, high } = self.value;
         let least = if low > 0.0 { low } else { (-high).max(0.0) };
-        Self { value: Interval { low: least, high: self.magnitude() }, ..self }
+        Self { value: Interval { low: least, high: self.magnitude() }, own: 0.0, ..self }
     }
 
     /// The number, no less than `low` and no more than `high`.
@@ -113,7 +131,7 @@ impl Rounded {
         // min and max of two numbers are off by no more than the worse of the two.
         let held = |x: f64| x.max(low.value.low).min(high.value.high);
         let value = Interval { low: held(self.value.low), high: held(self.value.high) };
-        Self { value, error: self.error.max(low.error).max(high.error), ..self }
+        Self { value, error: self.error.max(low.error).max(high.error), own: 0.0, ..self }
     }
 
     /// `above`, `below` or `otherwise` by the sign of the number, where rounding does not change it: see
@@ -124,9 +142,10 @@ impl Rounded {
         let choices = [above, below, otherwise];
         let mut possible = choices.iter().zip(may).filter(|(_, may)| *may).map(|(choice, _)| *choice);
         let Some(first) = possible.next() else { return otherwise };
-        possible.fold(first, |all, choice| Self {
+        possible.fold(Self { own: 0.0, ..first }, |all, choice| Self {
             value: all.value.hull(choice.value),
             error: all.error.max(choice.error),
+            own: 0.0,
             ..self
         })
     }
@@ -135,6 +154,12 @@ impl Rounded {
     pub fn sign_may_change(self) -> bool {
         self.error > 0.0 && self.value.low <= self.error && self.value.high >= -self.error
     }
+}
+
+/// The largest power of 2 that is not above `x` ≥ 0; 0 for numbers that are not normal. Numbers up to `x` have neighbours no further
+/// apart than 2u times it, so rounding to the nearest is off by no more than u times it.
+fn power_below(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() & f64::INFINITY.to_bits())
 }
 
 impl Add for Rounded {
@@ -161,7 +186,7 @@ impl Mul for Rounded {
 impl Neg for Rounded {
     type Output = Self;
     fn neg(self) -> Self {
-        Self { value: -self.value, ..self }
+        Self { value: -self.value, own: 0.0, ..self }
     }
 }
 

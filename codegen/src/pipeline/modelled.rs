@@ -47,7 +47,9 @@ impl Modelled {
         };
         if scalar == ScalarSpec::F32 {
             let setting = &sampled.setting;
-            let code = Graph { sines: setting.sines.clone(), ..exact.1.clone() };
+            let fma = checked.loaded.spec.emit.fma;
+            let code = if fma { exact.1.fused() } else { exact.1.clone() };
+            let code = Graph { sines: setting.sines.clone(), ..code };
             let reserved = |scale: TorqueScale| scale.reserving_code(&code, &setting.turn, scalar.format());
             sampled.scale = sampled.scale.map(reserved);
         }
@@ -73,7 +75,14 @@ impl Modelled {
         if !model.reduced.is_finite() {
             return Err(overflow(checked));
         }
-        Ok(Self { model, exact: exact.1, regression, regressor, warnings, sampled })
+        let mut exact = exact.1;
+        if checked.loaded.spec.emit.fma {
+            let learnt = regressor.as_mut().map(|regressor| &mut regressor.code);
+            for code in learnt.into_iter().chain([&mut model.code, &mut exact]) {
+                *code = code.fused();
+            }
+        }
+        Ok(Self { model, exact, regression, regressor, warnings, sampled })
     }
 }
 

@@ -1,8 +1,12 @@
 //! A control step that a generator has written out: law and model as one straight line, with its constants folded.
 
 mod controller;
+#[cfg(feature = "std")]
+mod fused;
 
 pub use controller::StepController;
+#[cfg(feature = "std")]
+pub use fused::{MulAdd, mul_add};
 
 use crate::reference::Desired;
 use crate::{Real, Settings};

@@ -10,7 +10,7 @@ use gramforge_tests::generation;
 use gramforge_tests::random::Random;
 
 /// The step's graph in some thirty digits.
-fn thirty_digits(code: &Graph, q: &[f64], read: impl Fn(Variable) -> f64) -> Vec<Double> {
+pub(super) fn thirty_digits(code: &Graph, q: &[f64], read: impl Fn(Variable) -> f64) -> Vec<Double> {
     let turned: Vec<(Double, Double)> =
         q.iter().enumerate().map(|(j, q)| sin_cos(q / f64::from(code.parts[j]))).collect();
     let mut all: Vec<Double> = Vec::with_capacity(code.nodes.len());
@@ -23,6 +23,10 @@ fn thirty_digits(code: &Graph, q: &[f64], read: impl Fn(Variable) -> f64) -> Vec
             Node::Add(a, b) => all[a] + all[b],
             Node::Sub(a, b) => all[a] - all[b],
             Node::Mul(a, b) => all[a] * all[b],
+            Node::MulAdd(signs, a, b, c) => {
+                let (first, added) = signs.given(all[a], all[c]);
+                first * all[b] + added
+            }
             Node::Neg(a) => -all[a],
             Node::Abs(a) if all[a].0 < 0.0 => -all[a],
             Node::Abs(a) => all[a],

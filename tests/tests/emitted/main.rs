@@ -17,6 +17,7 @@ macro_rules! included {
 mod adaptive;
 mod counts;
 mod double;
+mod fused;
 mod generated_code;
 mod single;
 mod steps;

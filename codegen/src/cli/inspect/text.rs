@@ -3,7 +3,6 @@
 use super::{ControlView, GuaranteeView, Inspection, PromiseView};
 use crate::bounds::{printed_down, printed_up};
 use crate::emit::{domain_in_words, met_in_words, rates_in_words, torque_in_words};
-use crate::graph::Operations;
 use crate::number::{decimal, short};
 use crate::pipeline::Generation;
 use crate::spec::MatrixSpec;
@@ -25,9 +24,8 @@ pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
     if let Some(simplified_arm) = generation.reduced().simplified_arm() {
         lines.push(format!("a simpler arm, without {}", simplified_arm.lost()));
     }
-    let cost = |o: &Operations| format!("{} mul, {} add, {} sin-cos pairs", o.mul, o.add, o.trig_pairs);
-    lines.push(format!("emitted ({}): {}", view.form, cost(&view.operations.reduced)));
-    lines.push(format!("exact:   {}", cost(&view.operations.exact)));
+    lines.push(format!("emitted ({}): {}", view.form, view.operations.reduced));
+    lines.push(format!("exact:   {}", view.operations.exact));
     lines.push(format!("module:  {} bytes", view.size));
     lines.push(format!("verdict: {}", view.verdict));
     let bounded = !generation.reduced().is_exact() || !generation.code().sines.rounds();
@@ -52,7 +50,7 @@ pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
     }
     if let Some(adaptation) = &view.adaptation {
         let count = adaptation.parameters.len();
-        lines.push(format!("parameters adapted: {count}; base and Y in {}", cost(&adaptation.operations)));
+        lines.push(format!("parameters adapted: {count}; base and Y in {}", adaptation.operations));
     }
     if let Some(control) = &view.control {
         lines.push(gains(control));

@@ -144,6 +144,7 @@ fn adaptation(generation: &Generation) -> Option<AdaptationView<'_>> {
         let own = generation.code().operations();
         operations.mul += own.mul;
         operations.add += own.add;
+        operations.fused += own.fused;
         operations.trig_pairs = operations.trig_pairs.max(own.trig_pairs);
     }
     let parameter = |k: usize| RangeView {

@@ -87,13 +87,14 @@ struct Tracking<'g> {
 }
 
 impl StepParts<'_> {
-    /// The step.
+    /// The step; its products are fused with sums where those of the model are.
     pub fn graph(&self) -> StepGraph {
         let step = self.graph_with(&[]);
-        match step.unread() {
+        let step = match step.unread() {
             unread if unread.is_empty() => step,
             unread => self.graph_with(&unread),
-        }
+        };
+        StepGraph { code: self.code.alike(step.code), ..step }
     }
 
     /// The step with the sum of these inputs as its last output, if there are any.
@@ -122,11 +123,7 @@ impl StepParts<'_> {
         let inputs = unread.iter().map(|&variable| builder.input(variable));
         outputs.extend(inputs.reduce(|sum, input| sum + input));
         let outputs: Vec<_> = outputs.into_iter().map(Expr::id).collect();
-        StepGraph {
-            code: Graph { sines: self.code.sines.clone(), ..builder.finish(&outputs) },
-            joints: n,
-            parameters,
-        }
+        StepGraph { code: builder.finish(&outputs), joints: n, parameters }
     }
 
     fn tracking<'g>(&self, builder: &'g Builder) -> Tracking<'g> {

@@ -8,7 +8,7 @@ mod change;
 mod terms;
 mod written;
 
-use super::{Graph, Name, Node};
+use super::{Graph, Name, Node, Signs};
 use crate::lagrangian::MAX_JOINTS;
 use terms::{Atom, Term, atom, costs, is_alias, joined, product};
 
@@ -31,7 +31,7 @@ struct System {
 }
 
 impl Graph {
-    /// The same function with fewer operations, or this graph where nothing can be saved.
+    /// The same function with fewer operations, products apart from sums, or this graph where nothing can be saved.
     pub fn factored(&self) -> Graph {
         let Some(mut system) = System::new(self) else { return self.clone() };
         let mut least = usize::MAX;
@@ -75,6 +75,15 @@ impl System {
                 Node::Mul(a, b) => {
                     let (a, b) = (system.single(&sums[a]), system.single(&sums[b]));
                     vec![product(&a, &b)]
+                }
+                Node::MulAdd(signs, a, b, c) => {
+                    let (a, b) = (system.single(&sums[a]), system.single(&sums[b]));
+                    let product = vec![product(&a, &b)];
+                    match signs {
+                        Signs::Plus => joined(&product, &sums[c], 1.0),
+                        Signs::Minus => joined(&product, &sums[c], -1.0),
+                        Signs::From => joined(&sums[c], &product, -1.0),
+                    }
                 }
             };
             sums.push(if uses[id] > 1 && !is_alias(&sum) {

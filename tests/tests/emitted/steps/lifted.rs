@@ -137,6 +137,10 @@ fn values(
             Node::Add(a, b) => all[a] + all[b],
             Node::Sub(a, b) => all[a] - all[b],
             Node::Mul(a, b) => all[a] * all[b],
+            Node::MulAdd(signs, a, b, c) => {
+                let (first, added) = signs.given(all[a], all[c]);
+                first * all[b] + added
+            }
             Node::Neg(a) => -all[a],
             Node::Abs(a) => all[a].abs(),
             Node::Clamp(a, low, high) => {
