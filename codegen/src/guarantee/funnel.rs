@@ -105,7 +105,7 @@ impl<'a> Funnel<'a> {
             self.ready.pop();
         }
         self.index += 1;
-        if self.index % OFTEN == 0 {
+        if self.index.is_multiple_of(OFTEN) {
             set.reduce(self.problem.gains);
         }
         let after = set.hull();
@@ -114,7 +114,7 @@ impl<'a> Funnel<'a> {
         let most: Vec<f64> = (0..n).map(most).collect();
         self.set = set;
         self.guess = during.acceleration;
-        if let Some(joint) = (0..n).find(|&i| !(most[i] <= self.problem.tube[i])) {
+        if let Some(joint) = (0..n).find(|&i| most[i].is_nan() || most[i] > self.problem.tube[i]) {
             return Err(Lost::Tube { joint, time: self.time(self.index) });
         }
         let (end, speed) = (after[..n].to_vec(), after[n..].to_vec());
