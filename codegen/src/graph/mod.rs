@@ -10,6 +10,7 @@ mod inverse;
 mod node;
 mod rounding;
 mod slopes;
+mod tape;
 #[cfg(test)]
 mod tests;
 
@@ -19,6 +20,7 @@ pub use expr::Expr;
 pub use node::{Name, Node, NodeId, Variable};
 pub use rounding::Inputs;
 use serde::{Deserialize, Serialize};
+pub use tape::Tape;
 
 use crate::lagrangian::MAX_JOINTS;
 use crate::trig::Trig;
