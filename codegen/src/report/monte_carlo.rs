@@ -25,7 +25,7 @@ pub fn monte_carlo_table(
     certified: Option<&CertifiedErrors>,
     joints: &[Joint],
 ) -> String {
-    let columns: [(&str, &[f64], Option<&[f64]>); 4] = [
+    let columns: [Column; 4] = [
         ("reach", &found.reach, certified.map(|c| c.reach)),
         ("settled", &found.settled_error, certified.map(|c| c.settled_error)),
         ("end", &found.end_error, certified.map(|c| c.end_error)),
@@ -50,6 +50,9 @@ pub fn monte_carlo_table(
     grid.render() + &notes(found)
 }
 
+/// A heading, what was found and what is certified.
+type Column<'a> = (&'a str, &'a [f64], Option<&'a [f64]>);
+
 /// What the columns mean, and what happened in some of the runs.
 fn notes(found: &MonteCarlo) -> String {
     let [settle, end, last] = found.times.map(|time| format!("{time:.3}"));
@@ -70,4 +73,48 @@ fn notes(found: &MonteCarlo) -> String {
         "the model's error was above its published bound at some instant: there the arm was outside the domain or faster than the law expects.",
     );
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulate::Picture;
+    use crate::simulate::example::three_link;
+
+    #[test]
+    fn what_is_certified_stands_beside_what_is_found() {
+        let found = MonteCarlo {
+            runs: 7,
+            reach: vec![0.01, 0.02, 0.03],
+            settled_error: vec![0.001, 0.002, 0.003],
+            end_error: vec![0.0011, 0.0021, 0.0031],
+            torque_max: vec![10.0, 20.0, 30.0],
+            lost: 0,
+            cut: 1,
+            beyond: 2,
+            times: [2.0, 3.0, 4.0],
+            picture: Picture::default(),
+        };
+        let certified = CertifiedErrors {
+            reach: &[0.05, 0.06, 0.07],
+            settled_error: &[0.5, 0.6, 0.7],
+            end_error: &[5.0, 6.0, 7.0],
+            torque_max: &[50.0, 60.0, 70.0],
+        };
+        let joints = three_link().joints;
+        let cells = |text: &str, row: usize| -> Vec<String> {
+            let line = text.lines().nth(row).unwrap_or_default();
+            line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).map(str::to_string).collect()
+        };
+        let alone = monte_carlo_table(&found, None, &joints);
+        assert_eq!(cells(&alone, 0), ["largest found", "reach", "settled", "end", "torque"]);
+        assert_eq!(cells(&alone, 3)[1..], ["0.02000", "0.002000", "0.002100", "20.00"]);
+        let beside = monte_carlo_table(&found, Some(&certified), &joints);
+        let (header, row) = (cells(&beside, 0), cells(&beside, 4));
+        assert_eq!(header[1..5], ["reach", "certified", "settled", "certified"]);
+        let expected = ["0.03000", "0.07000", "0.003000", "0.7000", "0.003100", "7.000", "30.00", "70.00"];
+        assert_eq!(row[1..], expected);
+        assert!(beside.contains("In 1 run a torque limit") && beside.contains("In 2 runs the model's error"));
+        assert!(!beside.contains("diverged"), "{beside}");
+    }
 }

@@ -24,7 +24,8 @@ pub use chatter::{Chatter, chatter};
 pub use metrics::{CONVERGED, Metrics};
 pub use models::{ArmModel, GraphModel};
 pub use monte_carlo::{
-    Against, Family, ModelErrorBound, MonteCarlo, MonteCarloRequest, Picture, SETTLE, monte_carlo,
+    Against, BoundAtState, Family, ModelErrorBound, MonteCarlo, MonteCarloRequest, Picture, SETTLE,
+    monte_carlo,
 };
 pub use run::{Run, Trace};
 pub use step_law::MOST_LEARNT;

@@ -22,6 +22,8 @@ const STEP: f64 = 1e-6;
 const LARGE: f64 = 1e100;
 
 type Square<const N: usize> = [[f64; N]; N];
+/// By position and velocity.
+type Torques<'a, const N: usize> = dyn Fn(&[f64; N], &[f64; N]) -> [f64; N] + 'a;
 
 /// The loop over the whole run.
 pub(super) struct FrozenLoop<const N: usize> {
@@ -126,7 +128,7 @@ impl<const N: usize> Piece<N> {
             more[j] += 1.0;
             difference(&moved(&q, &qd, &more), &rest, 1.0)
         });
-        let slopes = |of: &dyn Fn(&[f64; N], &[f64; N]) -> [f64; N], velocity: bool| {
+        let slopes = |of: &Torques<N>, velocity: bool| {
             columns(|j| {
                 let at = |by: f64| {
                     let (mut q, mut qd) = (q, qd);

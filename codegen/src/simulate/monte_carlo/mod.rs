@@ -22,7 +22,7 @@ use gramforge_runtime::ConfigError;
 
 pub use family::Family;
 pub use found::{MonteCarlo, Picture};
-pub use push::{Against, ModelErrorBound};
+pub use push::{Against, BoundAtState, ModelErrorBound};
 pub use request::{MonteCarloRequest, SETTLE};
 
 use self::fast_arm::FastArm;
@@ -156,6 +156,7 @@ impl<'a, const N: usize> Runs<'a, N> {
         let arm = FastArm::new(request.family.at(&plan.parameters))?;
         let push = Push {
             bound: self.bound,
+            at_state: request.model_error.at_state.as_ref(),
             exact: match request.model_error.against {
                 Against::Exact => None,
                 Against::Specified => Some(&self.arm),

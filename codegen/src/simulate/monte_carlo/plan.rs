@@ -49,7 +49,7 @@ impl<const N: usize> Planner<'_, N> {
             let (side, variant, joint) = (index / attacks, index % attacks / N, index % N);
             let side = if side == 0 { 1.0 } else { -1.0 };
             // Half of the attacks choose the arm for their first target, the others for their last.
-            let first = (variant % 2 == 0) == (side > 0.0);
+            let first = variant.is_multiple_of(2) == (side > 0.0);
             let aim = match variant.checked_sub(EARLY.len()) {
                 None => self.instant(EARLY[variant]),
                 Some(0) => self.settle,
@@ -100,7 +100,7 @@ impl<const N: usize> Planner<'_, N> {
         let gap = (self.settle / 2).max(1);
         let begin = self.settle + gap * (variant % EARLY.len()) / EARLY.len();
         let mut out: Vec<usize> = (begin..self.steps.saturating_sub(gap / 4)).step_by(gap).collect();
-        if variant % 2 == 0 {
+        if variant.is_multiple_of(2) {
             out.retain(|step| step.abs_diff(self.end) > gap / 2);
             out.push(self.end);
         }

@@ -1,7 +1,7 @@
 //! What many runs are asked to seek.
 
 use super::family::Family;
-use super::push::{Against, ModelErrorBound};
+use super::push::{Against, BoundAtState, ModelErrorBound};
 use crate::pipeline::Generation;
 use crate::spec::{LawSpec, ScalarSpec};
 
@@ -23,7 +23,8 @@ pub struct MonteCarloRequest<'a> {
 
 impl<'a> MonteCarloRequest<'a> {
     /// `runs` runs with what `generation` publishes: its family, and the torque error of its model at the rates that the
-    /// law meets, or where nothing holds the errors, at the motion's own. An exact model errs by rounding alone: what
+    /// law meets, or where nothing holds the errors, at the motion's own; where the entries of D, h and G tell less at the
+    /// state of the instant, that. An exact model errs by rounding alone: what
     /// uncertain numbers do, the arms of the family do themselves. No disturbance is added for a law that learns: its
     /// model has no fixed error.
     pub fn of(generation: &'a Generation, runs: usize, settle: f64) -> Self {
@@ -45,6 +46,10 @@ impl<'a> MonteCarloRequest<'a> {
             runs,
             settle,
             model_error: ModelErrorBound {
+                at_state: torque.filter(|_| !exact && !learns).map(|torque| BoundAtState {
+                    entries: generation.bounds().clone(),
+                    rounding: torque.rounding.clone(),
+                }),
                 torque: published.filter(|_| !learns).cloned().unwrap_or_else(|| vec![0.0; arm.dof()]),
                 against: match (exact, generation.spec().emit.scalar) {
                     _ if learns => Against::Exact,

@@ -49,7 +49,7 @@ fn request(generation: &Generation, runs: usize) -> MonteCarloRequest<'_> {
 /// The same without pushes.
 fn left_alone(generation: &Generation, runs: usize) -> MonteCarloRequest<'_> {
     let mut request = request(generation, runs);
-    request.model_error = ModelErrorBound { torque: vec![0.0; 3], against: Against::Exact };
+    request.model_error = ModelErrorBound { torque: vec![0.0; 3], at_state: None, against: Against::Exact };
     request
 }
 
@@ -126,11 +126,13 @@ fn a_push_makes_the_models_error_its_bound_and_no_more() {
     let request = request(&generation, 1);
     let runs = Runs::<3>::new(&scenario, &request).unwrap();
     assert!(runs.bound.iter().all(|bound| *bound > 0.1), "{:?}", runs.bound);
-    let push = |bound, sides: &[i8; 3], time: f64, q_e: [f64; 3], qd_e: [f64; 3]| {
+    let at_state = request.model_error.at_state.as_ref();
+    let push = |bound, at_state, sides: &[i8; 3], time: f64, [q_e, qd_e]: [[f64; 3]; 2]| {
         let desired = runs.rig.reference.at(time);
         let q: [f64; 3] = std::array::from_fn(|i| desired.q[i] + q_e[i]);
         let qd: [f64; 3] = std::array::from_fn(|i| desired.qd[i] + qd_e[i]);
-        let push = Push { bound, exact: Some(&runs.arm), code: &runs.emitted, p12: &runs.rig.gains.p12 };
+        let p12 = &runs.rig.gains.p12;
+        let push = Push { bound, at_state, exact: Some(&runs.arm), code: &runs.emitted, p12 };
         let (torque, beyond) = push.torque(&q, &qd, &desired, sides);
         // P12 = 4 on the diagonal.
         let v_r: [f64; 3] = std::array::from_fn(|i| desired.qd[i] - 4.0 * q_e[i]);
@@ -139,25 +141,38 @@ fn a_push_makes_the_models_error_its_bound_and_no_more() {
         let at = crate::dynamics::positions(arm, &q);
         let exact = crate::dynamics::passivity_torque(arm, arm.gravity, &at, &qd, &v_r, &a_r);
         let emitted = generation.code().interpret(&q, &qd, &v_r, &a_r);
-        let error: [f64; 3] = std::array::from_fn(|i| emitted[i] - exact[i]);
-        (torque, beyond, error)
+        let whole: [f64; 3] = std::array::from_fn(|i| emitted[i] - exact[i] + torque[i]);
+        let [speed, reference_speed, reference_acceleration] =
+            [qd, v_r, a_r].map(|x| x.iter().map(|x| x.abs()).collect());
+        let rates = Rates { speed, reference_speed, reference_acceleration };
+        (torque, beyond, whole, generation.bounds().torque(&rates))
     };
-    let mut largest = 0.0_f64;
+    let mut lower = 0;
     for (number, sides) in [[1, -1, 1], [-1, -1, 1], [1, 1, -1]].iter().enumerate() {
         let turn = 0.1 * number as f64;
-        let (q_e, qd_e) = ([0.15 - turn, turn - 0.1, 0.05], [-0.3, 0.2, turn]);
-        let (torque, beyond, error) = push(runs.bound, sides, 0.2 + turn, q_e, qd_e);
+        let errors = [[0.15 - turn, turn - 0.1, 0.05], [-0.3, 0.2, turn]];
+        let time = 0.2 + turn;
+        let (torque, beyond, whole, _) = push(runs.bound, None, sides, time, errors);
         assert!(!beyond);
         for i in 0..3 {
-            largest = largest.max(error[i].abs());
-            let whole = torque[i] + error[i];
-            assert!((whole - f64::from(sides[i]) * runs.bound[i]).abs() < 1e-12, "{whole}");
+            assert!((whole[i] - f64::from(sides[i]) * runs.bound[i]).abs() < 1e-12, "{whole:?}");
+            let model = whole[i] - torque[i];
+            assert!(model != 0.0 || i == 0, "the reduced model errs");
+        }
+        // At the rates of the instant the entries allow less.
+        let (_, beyond, whole, entries) = push(runs.bound, at_state, sides, time, errors);
+        assert!(!beyond);
+        for i in 0..3 {
+            let bound = (entries[i] + at_state.unwrap().rounding[i]).min(runs.bound[i]);
+            lower += usize::from(entries[i] < runs.bound[i]);
+            assert!((whole[i] - f64::from(sides[i]) * bound).abs() < 1e-12, "{whole:?}, {entries:?}");
         }
         // What is wrong by more than its bound is left as it is.
-        let (torque, beyond, _) = push([1e-9; 3], sides, 0.2 + turn, q_e, qd_e);
-        assert!(beyond && torque == [0.0; 3], "{torque:?}");
+        let (torque, beyond, whole, _) = push([1e-9; 3], None, sides, time, errors);
+        let wrong = (0..3).filter(|&i| whole[i].abs() > 1.1e-9).collect::<Vec<_>>();
+        assert!(beyond && !wrong.is_empty() && wrong.iter().all(|&i| torque[i] == 0.0), "{whole:?}");
     }
-    assert!(largest > 0.05, "the reduced model errs: {largest}");
+    assert!(lower > 0, "the bound for any instant is that of the largest rates");
 }
 
 #[test]
@@ -191,9 +206,10 @@ fn attacks_reach_what_the_frozen_loop_says() {
     });
     let scenario = Scenario::of(&generation).unwrap();
     let mut request = request(&generation, 1);
-    request.model_error = ModelErrorBound { torque: vec![0.2; 3], against: Against::Exact };
+    request.model_error = ModelErrorBound { torque: vec![0.2; 3], at_state: None, against: Against::Exact };
     let runs = Runs::<3>::new(&scenario, &request).unwrap();
-    let push = Push { bound: [0.2; 3], exact: None, code: &runs.emitted, p12: &runs.rig.gains.p12 };
+    let push =
+        Push { bound: [0.2; 3], at_state: None, exact: None, code: &runs.emitted, p12: &runs.rig.gains.p12 };
     let after = |plan: &Plan<3>, step: usize| {
         let instants = Instants { end: step, ..runs.instants };
         let Controlled { model, law, .. } = runs.controlled.clone();
