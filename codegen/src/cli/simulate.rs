@@ -82,8 +82,11 @@ impl Simulate {
     }
 }
 
-/// The largest errors and torques of that many runs.
+/// The largest errors and torques of that many runs, settled where the guarantee says.
 fn sought(generation: &Generation, scenario: &Scenario, runs: usize) -> Result<MonteCarlo, Error> {
-    let request = MonteCarloRequest::of(generation, runs, SETTLE);
+    let asked = generation.control().and_then(|control| control.settle);
+    let proved = generation.statement().and_then(|statement| statement.sampled.as_ref());
+    let settle = asked.or(proved.map(|sampled| sampled.settle)).unwrap_or(SETTLE);
+    let request = MonteCarloRequest::of(generation, runs, settle);
     watched(|progress| monte_carlo(scenario, &request, progress))
 }

@@ -184,7 +184,7 @@ fn simulate_seeks_the_worst_in_many_runs() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut spec = value("arm3_robust");
     spec["motion"]["quintic"]["duration"] = json!(1.0);
-    spec["control"]["period"] = json!(0.01);
+    spec["control"]["settle"] = json!(2.0);
     let path = folder.path().join("arm.json");
     fs::write(&path, spec.to_string()).expect("written");
     let sought = |runs: &str| {
@@ -207,7 +207,7 @@ fn simulate_seeks_the_worst_in_many_runs() {
         assert!(few != many, "{key}: {few:?}");
     }
     // The corners of the initial error are among the starts.
-    assert!(many["reach"].as_array().expect("a list").iter().all(|reach| reach.as_f64() >= Some(0.2)));
+    assert!(many["reach"].as_array().expect("a list").iter().all(|reach| reach.as_f64() > Some(0.2 - 1e-9)));
     let table = finish(gramforge().arg("simulate").arg(&path).args(["--runs", "40"])).expect(0).stdout;
     assert!(table.contains("40 runs of 3.000 s, found and not proved."), "{table}");
     let plain = finish(gramforge().arg("simulate").arg(&path).arg("--json")).json();
