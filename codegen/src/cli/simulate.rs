@@ -2,16 +2,19 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, value_parser};
 use serde::Serialize;
 
 use super::progress::{generated, watched};
 use super::{json, show_warnings};
 use crate::error::Error;
 use crate::output::write_if_changed;
+use crate::pipeline::Generation;
 use crate::progress::Stage;
-use crate::report::{chatter_table, metrics_table, plot};
-use crate::simulate::{Chatter, Metrics, Scenario, chatter, simulate};
+use crate::report::{chatter_table, metrics_table, monte_carlo_table, plot};
+use crate::simulate::{
+    Chatter, Metrics, MonteCarlo, MonteCarloRequest, SETTLE, Scenario, chatter, monte_carlo, simulate,
+};
 use crate::spec::LawSpec;
 
 /// Simulates the exact arm under equation (16) with the exact model, and under the specification's law.
@@ -22,6 +25,10 @@ pub(super) struct Simulate {
     /// Also draw errors, torques and V over time into this SVG file; folders that are missing are made.
     #[arg(long)]
     plot: Option<PathBuf>,
+    /// Also run the loop this many times from the worst initial errors, with uncertain numbers and the error of the model
+    /// at their limits, and print the largest errors and torques found.
+    #[arg(long, value_parser = value_parser!(u32).range(1..))]
+    runs: Option<u32>,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -34,6 +41,8 @@ struct Summary<'a> {
     law_kind: LawSpec,
     boundary_layer: &'a Option<Vec<f64>>,
     measured_chatter: &'a [Chatter],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    monte_carlo: Option<&'a MonteCarlo>,
 }
 
 impl Simulate {
@@ -47,6 +56,7 @@ impl Simulate {
             let chatter = chatter(&generation, &comparison)?;
             Ok::<_, Error>((comparison, chatter))
         })?;
+        let found = self.runs.map(|runs| sought(&generation, &scenario, runs as usize)).transpose()?;
         let joints = &generation.arm().joints;
         if let Some(path) = &self.plot {
             write_if_changed(path, &plot(&comparison, joints)?)?;
@@ -56,6 +66,9 @@ impl Simulate {
             if !chatter.is_empty() {
                 out += &format!("\n{}", chatter_table(&chatter, comparison.exact.relative_step()));
             }
+            if let Some(found) = &found {
+                out += &format!("\n{}", monte_carlo_table(found, None, joints));
+            }
             return Ok(out);
         }
         json(&Summary {
@@ -64,6 +77,16 @@ impl Simulate {
             law_kind: comparison.law_kind,
             boundary_layer: &comparison.boundary_layer,
             measured_chatter: &chatter,
+            monte_carlo: found.as_ref(),
         })
     }
+}
+
+/// The largest errors and torques of that many runs, settled where the guarantee says.
+fn sought(generation: &Generation, scenario: &Scenario, runs: usize) -> Result<MonteCarlo, Error> {
+    let asked = generation.control().and_then(|control| control.settle);
+    let proved = generation.statement().and_then(|statement| statement.sampled.as_ref());
+    let settle = asked.or(proved.map(|sampled| sampled.settle)).unwrap_or(SETTLE);
+    let request = MonteCarloRequest::of(generation, runs, settle);
+    watched(|progress| monte_carlo(scenario, &request, progress))
 }

@@ -12,6 +12,7 @@ mod node;
 mod rounding;
 mod sensitivity;
 mod slopes;
+mod tape;
 #[cfg(test)]
 mod tests;
 
@@ -21,6 +22,7 @@ pub use expr::Expr;
 pub use node::{Name, Node, NodeId, Signs, Variable};
 pub use rounding::Inputs;
 use serde::{Deserialize, Serialize};
+pub use tape::Tape;
 
 use crate::lagrangian::MAX_JOINTS;
 use crate::trig::Trig;

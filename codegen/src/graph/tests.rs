@@ -1,6 +1,6 @@
 //! Folding keeps values and keeps the promises of [`Graph`](super::Graph).
 
-use super::{Builder, Expr, Graph, Node, Variable};
+use super::{Builder, Expr, Graph, Node, Tape, Variable};
 use crate::dynamics::Scalar;
 
 /// The graph of f(q1, q2) and its value at two numbers.
@@ -122,5 +122,34 @@ fn random_trees_keep_their_bits() {
         let plain = tree(&mut { seed }, 5, 1.7, -0.3);
         // Only the sign of a zero may differ.
         assert!(folded == plain || (folded.is_nan() && plain.is_nan()), "seed {seed}: {folded} {plain}");
+    }
+}
+
+#[test]
+fn a_tape_gives_the_bits_of_the_graph() {
+    let builder = Builder::new();
+    let input = |variable| builder.input(variable);
+    let (x, y, z) = (input(Variable::Q(0)), input(Variable::Qd(1)), input(Variable::Theta(0)));
+    let (sin, cos) = builder.sin_cos(1);
+    let sum = (x * y + sin).abs();
+    let cut = (sum - z * cos).clamp(-x.constant(0.25), y * y);
+    let chosen = (x - y).select(cut, -sum * z, x.constant(0.5) + cos);
+    let last = input(Variable::DesiredQ(0)) - input(Variable::DesiredQdd(0));
+    let outputs = [chosen * cut, sum, last + chosen, x].map(Expr::id);
+    let graph = builder.finish(&outputs);
+    let (double, single) = (Tape::<f64>::new(&graph), Tape::<f32>::new(&graph));
+    for (x, y) in [(0.3, -1.2), (-0.7, 0.4), (0.1, 0.1), (f64::NAN, 1.0), (2.0, f64::INFINITY)] {
+        let (q, qd, desired, theta) = ([x, 0.9], [0.2, y], [[0.4; 2], [0.1; 2], [x * y; 2]], [1.5]);
+        let bits = |values: Vec<f64>| values.into_iter().map(f64::to_bits).collect::<Vec<_>>();
+        let rows = desired.each_ref().map(|row| row.as_slice());
+        let plain = graph.interpret_step(&q, &qd, rows, &theta);
+        assert_eq!(bits(double.interpret_step(&q, &qd, rows, &theta)), bits(plain));
+        assert_eq!(bits(double.interpret(&q, &qd, &q, &qd)), bits(graph.interpret(&q, &qd, &q, &qd)));
+        let (q, qd, theta) = (q.map(|x| x as f32), qd.map(|x| x as f32), theta.map(|x| x as f32));
+        let desired = desired.map(|row| row.map(|x| x as f32));
+        let rows = desired.each_ref().map(|row| row.as_slice());
+        let bits = |values: Vec<f32>| values.into_iter().map(f32::to_bits).collect::<Vec<_>>();
+        let plain = graph.interpret_step(&q, &qd, rows, &theta);
+        assert_eq!(bits(single.interpret_step(&q, &qd, rows, &theta)), bits(plain));
     }
 }

@@ -183,6 +183,11 @@ impl Generation {
         &self.checked().built.uncertainty
     }
 
+    /// The same about the arm as the specification gives it.
+    pub fn given_uncertainty(&self) -> &Uncertainty {
+        &self.checked().built.uncertain
+    }
+
     /// Where the model must be accurate.
     pub fn domain(&self) -> &Domain {
         &self.checked().domain

@@ -3,6 +3,7 @@
 mod claims;
 mod figure;
 mod grid;
+mod monte_carlo;
 mod plot;
 mod reproduction;
 mod series;
@@ -10,6 +11,7 @@ mod table;
 
 pub(crate) use claims::largest_difference;
 pub use claims::{Claim, claims};
+pub use monte_carlo::{CertifiedErrors, monte_carlo_table};
 pub use plot::plot;
 pub use reproduction::{Figures, figures};
 pub use table::{bounds_table, chatter_table, claims_table, metrics_table, operations_table};

@@ -8,6 +8,7 @@ mod chatter;
 pub(crate) mod example;
 mod metrics;
 mod models;
+mod monte_carlo;
 mod reference;
 mod run;
 mod step_law;
@@ -22,6 +23,10 @@ use serde::Serialize;
 pub use chatter::{Chatter, chatter};
 pub use metrics::{CONVERGED, Metrics};
 pub use models::{ArmModel, GraphModel};
+pub use monte_carlo::{
+    Against, BoundAtState, Family, ModelErrorBound, MonteCarlo, MonteCarloRequest, Picture, SETTLE,
+    monte_carlo,
+};
 pub use run::{Run, Trace};
 pub use step_law::MOST_LEARNT;
 
@@ -177,25 +182,43 @@ fn exact<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Run, Error>
 
 /// The scenario's own law with the reduced model.
 fn law<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Run, Error> {
-    let Scenario { file, arm, design, .. } = *scenario;
     let rig = rig::<N>(scenario, plant)?;
-    let model = GraphModel::<N>::new(scenario.code, scenario.bounds, arm)?;
-    let viscous: Vec<f64> = arm.joints.iter().map(|joint| joint.viscous_friction).collect();
-    let step = design.step(&StepModel {
-        code: scenario.code,
-        regressor: scenario.regressor,
-        bounds: scenario.bounds,
-        viscous: &viscous,
-    });
-    let adaptation = design.adaptation.as_ref();
-    let learnt = adaptation.map_or(0, |adaptation| adaptation.rate.len());
-    if learnt > MOST_LEARNT {
-        let help = "learn the `uncertain` parameters";
-        let problem = format!("are {learnt}; a simulation bears {MOST_LEARNT}");
-        return Err(Error::input(file, "control.adaptation.parameters", problem, help));
-    }
-    let law = StepLaw::new(&step, adaptation.map_or(&[], |adaptation| &adaptation.initial), scenario.scalar);
+    let Controlled { model, law, learnt } = Controlled::new(scenario)?;
     rig.run(model, law, learnt).map_err(|error| refused(scenario, &error))
+}
+
+/// What a controller is made of.
+#[derive(Clone)]
+struct Controlled<'a, const N: usize> {
+    /// The emitted model.
+    model: GraphModel<'a, N>,
+    /// The emitted step.
+    law: StepLaw,
+    /// Number of parameters that the law learns.
+    learnt: usize,
+}
+
+impl<'a, const N: usize> Controlled<'a, N> {
+    fn new(scenario: &Scenario<'a>) -> Result<Self, Error> {
+        let Scenario { file, arm, design, .. } = *scenario;
+        let model = GraphModel::<N>::new(scenario.code, scenario.bounds, arm)?;
+        let viscous: Vec<f64> = arm.joints.iter().map(|joint| joint.viscous_friction).collect();
+        let step = design.step(&StepModel {
+            code: scenario.code,
+            regressor: scenario.regressor,
+            bounds: scenario.bounds,
+            viscous: &viscous,
+        });
+        let adaptation = design.adaptation.as_ref();
+        let learnt = adaptation.map_or(0, |adaptation| adaptation.rate.len());
+        if learnt > MOST_LEARNT {
+            let help = "learn the `uncertain` parameters";
+            let problem = format!("are {learnt}; a simulation bears {MOST_LEARNT}");
+            return Err(Error::input(file, "control.adaptation.parameters", problem, help));
+        }
+        let initial: &[f64] = adaptation.map_or(&[], |adaptation| &adaptation.initial);
+        Ok(Self { model, law: StepLaw::new(&step, initial, scenario.scalar), learnt })
+    }
 }
 
 fn refused(scenario: &Scenario, error: &ConfigError) -> Error {

@@ -76,7 +76,7 @@ pub(super) struct Rig<'a, const N: usize> {
 }
 
 /// A position error this much larger than the initial one, rad or m, is a lost arm: a full turn.
-const LOST: f64 = 2.0 * std::f64::consts::PI;
+pub(super) const LOST: f64 = 2.0 * std::f64::consts::PI;
 
 impl<const N: usize> Rig<'_, N> {
     /// Drives the plant by a law that knows `model` and learns `learnt` parameters.

@@ -7,19 +7,26 @@ use gramforge_runtime::law::{Law, Sample};
 
 use super::run::Memory;
 use crate::control::StepGraph;
-use crate::graph::Graph;
+use crate::graph::Tape;
 use crate::spec::ScalarSpec;
 
 /// Most parameters of a law that learns in a simulation.
 pub const MOST_LEARNT: usize = 512;
 
 /// A control step in the form of its graph, interpreted: the numbers of the generated code, bit by bit.
+#[derive(Clone)]
 pub(super) struct StepLaw {
-    /// Outputs: the torques before they are limited, which the loop does, then the parameters after the period.
-    code: Graph,
+    code: Interpreter,
     learnt: usize,
-    scalar: ScalarSpec,
     initial: Learnt,
+}
+
+/// The graph in the number type of the module. Outputs: the torques before they are limited, which the loop does, then the
+/// parameters after the period.
+#[derive(Clone)]
+enum Interpreter {
+    Double(Tape<f64>),
+    Single(Tape<f32>),
 }
 
 /// θ̂, padded with zeros.
@@ -38,9 +45,11 @@ impl StepLaw {
         let mut code = step.code.clone();
         code.outputs.splice(..step.joints, step.asked());
         Self {
-            code,
+            code: match scalar {
+                ScalarSpec::F64 => Interpreter::Double(Tape::new(&code)),
+                ScalarSpec::F32 => Interpreter::Single(Tape::new(&code)),
+            },
             learnt: step.parameters,
-            scalar,
             initial: Learnt(from_fn(|k| initial.get(k).copied().unwrap_or(0.0))),
         }
     }
@@ -56,14 +65,14 @@ impl<M: Model<N, Scalar = f64>, const N: usize> Law<M, N> for StepLaw {
     fn torque(&self, _model: &M, state: &mut Learnt, sample: &Sample<f64, N>) -> [f64; N] {
         let desired = &sample.desired;
         let desired = [desired.q.as_slice(), &desired.qd, &desired.qdd];
-        let out = match self.scalar {
-            ScalarSpec::F64 => self.code.interpret_step(&sample.q, &sample.qd, desired, &state.0),
-            ScalarSpec::F32 => {
+        let out = match &self.code {
+            Interpreter::Double(code) => code.interpret_step(&sample.q, &sample.qd, desired, &state.0),
+            Interpreter::Single(code) => {
                 let single = |x: &[f64]| -> Vec<f32> { x.iter().map(|&x| x as f32).collect() };
                 let [q_d, qd_d, qdd_d] = desired.map(single);
                 let desired = [q_d.as_slice(), &qd_d, &qdd_d];
                 let theta = single(state.0.get(..self.learnt).unwrap_or(&state.0));
-                let out = self.code.interpret_step(&single(&sample.q), &single(&sample.qd), desired, &theta);
+                let out = code.interpret_step(&single(&sample.q), &single(&sample.qd), desired, &theta);
                 out.into_iter().map(f64::from).collect()
             }
         };

@@ -178,6 +178,46 @@ fn simulate_sums_up_both_laws() {
     }
 }
 
+/// What more runs find is no smaller, and the table and the JSON say the same.
+#[test]
+fn simulate_seeks_the_worst_in_many_runs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut spec = value("arm3_robust");
+    spec["motion"]["quintic"]["duration"] = json!(1.0);
+    spec["control"]["settle"] = json!(2.0);
+    let path = folder.path().join("arm.json");
+    fs::write(&path, spec.to_string()).expect("written");
+    let sought = |runs: &str| {
+        finish(gramforge().arg("simulate").arg(&path).args(["--json", "--runs", runs])).json()["monte_carlo"]
+            .clone()
+    };
+    let (few, many) = (sought("1"), sought("40"));
+    assert_eq!((&few["runs"], &many["runs"]), (&json!(1), &json!(40)));
+    let mut grown = 0;
+    for key in ["reach", "settled_error", "end_error", "torque_max"] {
+        let list = |found: &Value| -> Vec<f64> {
+            let list = found[key].as_array().expect("a list");
+            list.iter().map(|value| value.as_f64().expect("a number")).collect()
+        };
+        let (few, many) = (list(&few), list(&many));
+        assert_eq!(many.len(), 3, "{key}");
+        assert!(
+            few.iter().zip(&many).all(|(few, many)| 0.0 < *few && few <= many),
+            "{key}: {few:?} {many:?}"
+        );
+        grown += usize::from(few != many);
+    }
+    assert!(grown >= 3, "{few} {many}");
+    // The corners of the initial error are among the starts.
+    assert!(many["reach"].as_array().expect("a list").iter().all(|reach| reach.as_f64() > Some(0.2 - 1e-9)));
+    let table = finish(gramforge().arg("simulate").arg(&path).args(["--runs", "40"])).expect(0).stdout;
+    assert!(table.contains("40 runs of 3.000 s, found and not proved."), "{table}");
+    let plain = finish(gramforge().arg("simulate").arg(&path).arg("--json")).json();
+    assert!(plain.get("monte_carlo").is_none(), "only on request");
+    let refused = finish(gramforge().arg("simulate").arg(&path).args(["--runs", "0"])).expect(2);
+    assert!(refused.stderr.contains("--runs"), "{refused:?}");
+}
+
 /// Each robust gain is measured, whichever the law has; what the law has is measured in the run that is shown.
 #[test]
 fn simulate_measures_the_chatter_of_each_robust_gain() {
