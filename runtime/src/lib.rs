@@ -68,6 +68,7 @@ extern crate std;
 mod cholesky;
 mod controller;
 mod error;
+mod estimate;
 pub mod law;
 mod model;
 mod real;
@@ -82,6 +83,7 @@ mod vector;
 
 pub use controller::{Command, Controller, OnFault, Settings, TorqueController};
 pub use error::{ConfigError, Fault, PlantError, Quantity, Requirement};
+pub use estimate::Estimate;
 pub use law::{
     AdaptiveLaw, ConstantGainLaw, CoriolisTerm, ExactLaw, Gains, Law, ReportLaw, Switching, TightLaw,
 };

@@ -194,8 +194,11 @@ fn law<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Run, Error> {
         let problem = format!("are {learnt}; a simulation bears {MOST_LEARNT}");
         return Err(Error::input(file, "control.adaptation.parameters", problem, help));
     }
-    let law = StepLaw::new(&step, adaptation.map_or(&[], |adaptation| &adaptation.initial), scenario.scalar);
-    rig.run(model, law, learnt).map_err(|error| refused(scenario, &error))
+    let run = match scenario.scalar {
+        ScalarSpec::F64 => rig.run(model, StepLaw::<f64>::new(&step, adaptation), learnt),
+        ScalarSpec::F32 => rig.run(model, StepLaw::<f32>::new(&step, adaptation), learnt),
+    };
+    run.map_err(|error| refused(scenario, &error))
 }
 
 fn refused(scenario: &Scenario, error: &ConfigError) -> Error {
