@@ -19,5 +19,6 @@ mod counts;
 mod double;
 mod generated_code;
 mod single;
+mod single_loop;
 mod steps;
 mod trig;
