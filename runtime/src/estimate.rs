@@ -7,6 +7,7 @@ use crate::Real;
 /// A correction far below an ulp of θ̂ would change nothing, however many there are; at 1 kHz in f32 they are soon that small. So
 /// what one of them loses by rounding is kept for the next (Kahan's compensated sum).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Estimate<T, const P: usize> {
     theta: [T; P],
     /// θ̂ without rounding, less `theta`: about half an ulp of `theta` at most.
