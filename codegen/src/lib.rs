@@ -34,6 +34,7 @@ mod dynamics;
 mod emit;
 mod error;
 mod graph;
+mod guarantee;
 mod lagrangian;
 pub mod load;
 mod model;

@@ -5,6 +5,8 @@ mod certified;
 mod designed;
 mod expanded;
 mod generation;
+mod judged;
+mod limits;
 mod modelled;
 mod proved;
 mod replaced;
@@ -15,6 +17,7 @@ mod threads;
 mod verdict;
 
 pub use generation::Generation;
+pub(crate) use limits::Limits;
 pub(crate) use proved::keep;
 
 use certified::Certified;

@@ -18,7 +18,8 @@ pub use arm::{
     PayloadSpec, SymmetricSpec,
 };
 pub use control::{
-    ControlSpec, CoriolisTermSpec, DesignSpec, InitialErrorSpec, LawSpec, OnFaultSpec, RobustGainSpec,
+    ControlSpec, CoriolisTermSpec, DesignSpec, GuaranteeSpec, InitialErrorSpec, LawSpec, OnFaultSpec,
+    RequireGuaranteeSpec, RobustGainSpec,
 };
 pub use emit::{EmitSpec, LawCodeSpec, ScalarSpec, TrigSpec};
 pub use model::{DictionarySpec, MeasureSpec, ModelSpec, RefitSpec};

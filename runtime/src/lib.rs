@@ -69,6 +69,7 @@ mod cholesky;
 mod controller;
 mod error;
 mod estimate;
+mod guarantee;
 pub mod law;
 mod model;
 mod real;
@@ -84,6 +85,7 @@ mod vector;
 pub use controller::{Command, Controller, OnFault, Settings, TorqueController};
 pub use error::{ConfigError, Fault, PlantError, Quantity, Requirement};
 pub use estimate::Estimate;
+pub use guarantee::{Guarantee, SampledErrors};
 pub use law::{
     AdaptiveLaw, ConstantGainLaw, CoriolisTerm, ExactLaw, Gains, Law, ReportLaw, Switching, TightLaw,
 };

@@ -89,7 +89,7 @@ pub fn up(x: f64, digits: usize) -> f64 {
 }
 
 /// The largest decimal number of `digits` digits that is not above `x`, or `x` itself where there is none.
-fn down(x: f64, digits: usize) -> f64 {
+pub fn down(x: f64, digits: usize) -> f64 {
     neighbours(x, digits).into_iter().rev().find(|&near| near <= x).unwrap_or(x)
 }
 

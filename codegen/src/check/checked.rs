@@ -8,8 +8,8 @@ use crate::domain::{DEFAULT_TUBE, Domain};
 use crate::load::Loaded;
 use crate::motion::Motion;
 use crate::spec::{
-    AdaptationSpec, ControlSpec, CoriolisTermSpec, DesignSpec, LawSpec, MeasureSpec, OnFaultSpec,
-    RobustGainSpec, Spec,
+    AdaptationSpec, ControlSpec, CoriolisTermSpec, DesignSpec, GuaranteeSpec, LawSpec, MeasureSpec,
+    OnFaultSpec, RobustGainSpec, Spec,
 };
 
 /// A specification that passed every check that needs no dynamics.
@@ -49,8 +49,10 @@ pub struct Control {
     pub adaptation: AdaptationSpec,
     /// Take a period longer than the sampled loop admits.
     pub allow_long_period: bool,
-    /// Refuse where the guarantee does not hold.
-    pub require_guarantee: bool,
+    /// The guarantee that must hold; `None` where none must.
+    pub require_guarantee: Option<GuaranteeSpec>,
+    /// Time from which errors count as settled, s; `None` for a multiple of the slowest error's time constant.
+    pub settle: Option<f64>,
     /// Add the Coulomb friction of the desired direction to the command.
     pub compensate_coulomb: bool,
     /// What the controller commands when a measurement is not finite.
@@ -87,8 +89,8 @@ pub struct InitialError {
 }
 
 impl Control {
-    /// The controller for `n` joints; `None` where a number is missing or a list has the wrong length.
-    pub(super) fn new(spec: &ControlSpec, n: usize) -> Option<Self> {
+    /// The controller for `n` joints, along a motion or without one; `None` where a number is missing or a list has the wrong length.
+    pub(super) fn new(spec: &ControlSpec, n: usize, motion: bool) -> Option<Self> {
         Some(Self {
             law: spec.law,
             gains: match &spec.design {
@@ -104,7 +106,8 @@ impl Control {
             },
             adaptation: spec.adaptation.clone().unwrap_or_default(),
             allow_long_period: spec.allow_long_period,
-            require_guarantee: spec.require_guarantee,
+            require_guarantee: spec.require_guarantee.wanted(motion),
+            settle: spec.settle,
             compensate_coulomb: spec.compensate_coulomb,
             on_fault: spec.on_fault,
         })

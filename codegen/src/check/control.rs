@@ -26,6 +26,10 @@ pub(super) fn check(control: &ControlSpec, joints: Option<usize>, faults: &mut D
     let (position, velocity) = ("control.initial_error.position", "control.initial_error.velocity");
     entries(position, &initial.position, joints, |v| v >= 0.0, wanted, faults);
     entries(velocity, &initial.velocity, joints, |v| v >= 0.0, wanted, faults);
+    if let Some(settle) = control.settle.filter(|settle| *settle < 0.0) {
+        let help = "write a number of at least 0, in s, or leave the field out";
+        faults.push("control.settle", format!("is {}", scientific(settle)), help);
+    }
     delta_c1(control, joints, faults);
     robust_gain(control, faults);
     adaptation(control, faults);

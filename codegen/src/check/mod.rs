@@ -78,7 +78,8 @@ pub fn checked(loaded: Loaded, extent: Extent) -> Result<Checked, Error> {
     let built = built.ok_or_else(|| defect("the arm"))?;
     let spec = &loaded.spec;
     let control = spec.control.as_ref().filter(|_| extent == Extent::Whole);
-    let dense = |control| Control::new(control, built.arm.dof()).ok_or_else(|| defect("`control`"));
+    let along = motion.is_some();
+    let dense = |control| Control::new(control, built.arm.dof(), along).ok_or_else(|| defect("`control`"));
     let control = control.map(dense).transpose()?;
     let motion = motion.map(Arc::new);
     let domain = checked::domain(spec, &built.arm, motion.as_ref()).ok_or_else(|| defect("`measure`"))?;

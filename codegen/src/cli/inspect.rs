@@ -28,6 +28,9 @@ pub(super) struct Inspect {
     /// Print JSON.
     #[arg(long)]
     json: bool,
+    /// Seek the longest period and the largest initial error for which the guarantee of the sampled loop holds.
+    #[arg(long)]
+    limits: bool,
 }
 
 #[derive(Serialize)]
@@ -74,8 +77,10 @@ struct Inspection<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     adaptation: Option<AdaptationView<'a>>,
     control: Option<ControlView<'a>>,
-    #[serde(flatten)]
-    guarantee: Option<GuaranteeView<'a>>,
+    /// What is promised; `null` without a controller.
+    guarantee: Option<PromiseView<'a>>,
+    /// What is promised of the continuous law; `null` without a controller.
+    continuous: Option<GuaranteeView<'a>>,
     warnings: &'a [String],
 }
 
@@ -177,9 +182,30 @@ struct ControlView<'a> {
     speed: &'a [f64],
 }
 
+/// What is promised of the loop that runs; what is not known is `null`.
+#[derive(Serialize)]
+struct PromiseView<'a> {
+    /// `sampled`, `continuous` or `none`.
+    kind: &'static str,
+    reasons: &'a [String],
+    /// Bounds on |q − q_d| by joint: at any time, from `settle` on, at the end of the motion.
+    reach: Option<Vec<f64>>,
+    settle: Option<f64>,
+    settled_error: Option<Vec<f64>>,
+    end_error: Option<Vec<f64>>,
+    /// Time until which that holds, s; `null` for ever.
+    valid_until: Option<f64>,
+    /// Range of the torque that the law asks for, by joint.
+    torque_min: Option<Vec<f64>>,
+    torque_max: Option<Vec<f64>>,
+    /// With `--limits`: the longest period and the largest initial position errors for which `sampled` was found to hold.
+    period_max: Option<f64>,
+    initial_error_max: Option<Vec<f64>>,
+}
+
 #[derive(Serialize)]
 struct GuaranteeView<'a> {
-    guaranteed: bool,
+    holds: bool,
     reasons: &'a [String],
     /// By joint.
     initial_error_max: &'a [f64],
@@ -198,9 +224,16 @@ impl Inspect {
         let generation = watched(|progress| Generation::with_progress(loaded, &effort, progress))?;
         show_warnings(generation.warnings());
         let size = generation.module()?.len();
+        let limits = match self.limits {
+            true => watched(|progress| {
+                let _stage = Stage::new(progress, "limits of the guarantee", 1);
+                generation.limits()
+            }),
+            false => None,
+        };
         let view = watched(|progress| {
             let _stage = Stage::new(progress, "comparison of bounds", 1);
-            view(&generation, size)
+            view(&generation, size, limits)
         });
         if self.json { json(&view) } else { Ok(text(&view, &generation)) }
     }

@@ -6,7 +6,6 @@ use crate::bounds::{Bounds, Rates};
 use crate::check::Control;
 use crate::error::Diagnostics;
 use crate::graph::Graph;
-use crate::number::short;
 use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec};
 use crate::torque::Regressor;
 
@@ -73,10 +72,10 @@ impl Design {
         StepParts {
             law: self.law,
             gains: &self.gains,
+            damping: &self.damping(),
             robust_gain: &self.robust_gain,
             coriolis_term: self.coriolis_term,
             delta_c: &self.delta_c,
-            delta_c1: &self.delta_c1,
             bounds: model.bounds,
             disturbance: &self.disturbance,
             boundary_layer: self.boundary_layer.as_deref(),
@@ -89,6 +88,18 @@ impl Design {
             regressor: model.regressor,
         }
         .graph()
+    }
+
+    /// What multiplies s in the law beside the switching term: K, with ΔC1 where the law subtracts ΔC1 s, n×n, N·m·s/rad.
+    pub fn damping(&self) -> Vec<Vec<f64>> {
+        let more = self.law.has_bracket()
+            && self.coriolis_term == CoriolisTermSpec::Matrix
+            && self.robust_gain == RobustGain::State;
+        if !more {
+            return self.gains.damping.clone();
+        }
+        let sum = |(k, c): (&Vec<f64>, &Vec<f64>)| k.iter().zip(c).map(|(k, c)| k + c).collect();
+        self.gains.damping.iter().zip(&self.delta_c1).map(sum).collect()
     }
 
     /// The step of the same law about the exact model, whose code is `code`, with nothing left out.
@@ -120,40 +131,6 @@ impl Design {
                 format!(
                     "add {:.6} to its diagonal, or leave it out for {:.6} times the identity",
                     -least, self.k_star
-                ),
-            );
-        }
-        let promised = &self.guarantee;
-        if self.period >= promised.period_max && !control.allow_long_period {
-            faults.push(
-                "control.period",
-                format!(
-                    "is {} s, and the sampled loop is stable only below {} s",
-                    self.period,
-                    short(promised.period_max)
-                ),
-                format!(
-                    "shorten it, lower W, {}widen the boundary layer, or set `control.allow_long_period` and lose the guarantee",
-                    if self.adaptation.is_some() { "raise `control.adaptation.Ptheta`, " } else { "" }
-                ),
-            );
-        } else if control.require_guarantee && !promised.holds {
-            let list = |x: &[f64]| x.iter().map(|&e| short(e)).collect::<Vec<_>>().join(", ");
-            let tube = match &promised.tube_needed {
-                Some(tube) => format!("a tube of at least ({})", list(tube)),
-                None => "other gains: no tube was found to be enough".to_string(),
-            };
-            faults.push(
-                "control.require_guarantee",
-                format!("is set, and nothing is guaranteed: {}", promised.reasons.join("; ")),
-                format!(
-                    "take {tube}, or an initial position error of at most ({})",
-                    promised
-                        .initial_error_max
-                        .iter()
-                        .map(|e| short(e * 0.9995))
-                        .collect::<Vec<_>>()
-                        .join(", ")
                 ),
             );
         }

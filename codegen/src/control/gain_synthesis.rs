@@ -9,7 +9,7 @@ use crate::number::short;
 use crate::progress;
 
 /// Periods that are tried, longest first, where none is asked for, s.
-const PERIODS: [f64; 7] = [0.01, 0.005, 0.002, 0.001, 0.0005, 0.0002, 0.0001];
+pub(super) const PERIODS: [f64; 7] = [0.01, 0.005, 0.002, 0.001, 0.0005, 0.0002, 0.0001];
 /// Halvings of the asked period, and then of the interval in which the longest sufficient one lies.
 const HALVINGS: usize = 4;
 const NEARER: usize = 4;

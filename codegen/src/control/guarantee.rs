@@ -158,7 +158,7 @@ impl Parts<'_> {
         reasons.extend(short);
         reasons.extend(self.chatter(&closed_loop, &load, &envelope));
         let leaves = outside(domain, motion, arm, &envelope.position_error);
-        let wanted = !self.sketch && (self.problem.seek_tube || control.require_guarantee);
+        let wanted = !self.sketch && (self.problem.seek_tube || control.require_guarantee.is_some());
         let tube_needed = match facts.certified && wanted {
             true if leaves.is_empty() || domain.width().is_none() => Some(envelope.position_error.clone()),
             true => self.smallest_tube(&inertia, &envelope, position, &position_bound)?,

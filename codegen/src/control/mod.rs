@@ -13,6 +13,7 @@ mod guarantee;
 mod inertia;
 mod limits;
 mod mix;
+mod proposals;
 mod region;
 mod rounding;
 mod search;
@@ -34,6 +35,8 @@ pub use form::InertiaBounds;
 pub use gains::Gains;
 pub use guarantee::Guarantee;
 pub use inertia::{Cell, Extremes, Inertia};
+pub use proposals::proposals;
+pub use region::room;
 pub use step::{RobustGain, StepGraph};
 
 use crate::arm::{Arm, Uncertainty};
@@ -48,6 +51,7 @@ use crate::reduction::Regression;
 use feedforward::Feedforward;
 use rounding::Rounding;
 pub(crate) use rounding::SingleRounding;
+pub use rounding::{LoopErrors, loop_rounding};
 pub use step::StepRounding;
 pub(crate) use step::{StepStates, Surroundings, step_rounding};
 

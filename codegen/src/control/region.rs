@@ -79,7 +79,7 @@ pub(super) fn outside(domain: &Domain, motion: Option<&Motion>, arm: &Arm, error
 }
 
 /// How far the joints may be off the motion inside the domain, rad or m; a full turn has room for half of one.
-pub(super) fn room(domain: &Domain, motion: Option<&Motion>, arm: &Arm) -> Vec<f64> {
+pub fn room(domain: &Domain, motion: Option<&Motion>, arm: &Arm) -> Vec<f64> {
     let turn: Vec<f64> = (0..arm.dof()).map(|i| 0.5 * arm.period(i)).collect();
     let (limits, motion) = match (domain, motion) {
         (Domain::Workspace(limits), Some(motion)) => (limits, motion),

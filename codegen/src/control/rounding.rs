@@ -4,7 +4,7 @@
 //! adds. Positions and speeds come to it rounded: a speed that is taken from two positions a period apart is off by the
 //! rounding of a position over the period, and so is the motion that a simulation adds up in short steps.
 
-use super::{DesignProblem, Gains};
+use super::{Design, DesignProblem, Gains};
 use crate::arm::JointKind;
 use crate::bounds::{Bounds, Rates, position_bound};
 use crate::dynamics::Sizes;
@@ -33,6 +33,37 @@ pub struct SingleRounding {
     pub sign: f64,
     /// The desired motion.
     pub reference: ReferenceError,
+}
+
+/// Errors of a loop, and the rates that they go with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoopErrors {
+    /// Largest |q̇|, |v_r| and |a_r|.
+    pub rates: Rates,
+    /// Largest |q_e| by joint, rad or m.
+    pub position: Vec<f64>,
+    /// Largest |s| by joint, rad/s or m/s.
+    pub s: Vec<f64>,
+}
+
+/// Bounds on what rounding changes the torque of `design` by, by joint, N·m or N, and on what s is off by where the law takes its
+/// side, rad/s or m/s, for errors up to these and a switching gain up to `robust_gain`.
+pub fn loop_rounding(
+    problem: &DesignProblem,
+    design: &Design,
+    errors: &LoopErrors,
+    robust_gain: &[f64],
+) -> [Vec<f64>; 2] {
+    let rounding = Rounding::new(problem, &design.coulomb);
+    let working = Working {
+        gains: &design.gains,
+        period: design.period,
+        rates: &errors.rates,
+        s: &errors.s,
+        position_error: &errors.position,
+        robust_gain,
+    };
+    [rounding.torque(&working), rounding.wrong_sign(&design.gains, &errors.rates)]
 }
 
 /// Bounds on what rounds, while the joints stay inside the domain.

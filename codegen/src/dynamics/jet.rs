@@ -3,9 +3,8 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::recursion::Position;
-use super::scalar::Scalar;
+use super::scalar::{Angle, Scalar};
 use crate::arm::{Arm, JointKind};
-use crate::numerics::Interval;
 
 /// A value and its derivative by one variable: forward differentiation in the ring `S`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,9 +49,16 @@ impl<S: Scalar> Scalar for Jet<S> {
     }
 }
 
-/// The joints that move, in the form that the recursion takes, where the coordinates are `q`: rad or m, with their rates.
-pub fn enclosed_positions(arm: &Arm, q: &[Jet<Interval>]) -> Vec<Position<Jet<Interval>>> {
-    let behind: Vec<Jet<Interval>> = match &arm.linkage {
+impl<S: Angle> Angle for Jet<S> {
+    fn sin_cos(self) -> (Self, Self) {
+        let (sin, cos) = self.value.sin_cos();
+        (Self { value: sin, rate: cos * self.rate }, Self { value: cos, rate: -(sin * self.rate) })
+    }
+}
+
+/// The joints that move, in the form that the recursion takes, where the coordinates are `q`, rad or m.
+pub fn enclosed_positions<S: Angle>(arm: &Arm, q: &[S]) -> Vec<Position<S>> {
+    let behind: Vec<S> = match &arm.linkage {
         None => q.to_vec(),
         Some(linkage) => {
             let follow = |c: &crate::arm::Coupling| {
@@ -61,13 +67,10 @@ pub fn enclosed_positions(arm: &Arm, q: &[Jet<Interval>]) -> Vec<Position<Jet<In
             linkage.couplings.iter().map_while(follow).collect()
         }
     };
-    let place = |(joint, q): (&crate::arm::Joint, Jet<Interval>)| match joint.kind {
+    let place = |(joint, q): (&crate::arm::Joint, S)| match joint.kind {
         JointKind::Revolute => {
-            let (sin, cos) = q.value.sin_cos();
-            Position::Revolute {
-                sin: Jet { value: sin, rate: cos * q.rate },
-                cos: Jet { value: cos, rate: -(sin * q.rate) },
-            }
+            let (sin, cos) = q.sin_cos();
+            Position::Revolute { sin, cos }
         }
         JointKind::Prismatic => Position::Prismatic(q),
     };

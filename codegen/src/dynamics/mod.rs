@@ -13,4 +13,4 @@ pub use model::{coriolis, energy, gravity, inverse_dynamics, mass_matrix};
 pub use norms::{Size, Sizes};
 pub use recursion::{Position, passivity_torque};
 pub use running::rounding;
-pub use scalar::Scalar;
+pub use scalar::{Angle, Scalar};

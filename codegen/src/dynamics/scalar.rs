@@ -3,6 +3,8 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
 use crate::numerics::Interval;
+use crate::numerics::linear::Linear;
+use crate::numerics::quadratic::Quadratic;
 
 /// A commutative ring with f64 constants: f64 itself, a node of an expression graph, or an enclosure.
 pub trait Scalar:
@@ -21,6 +23,42 @@ impl Scalar for f64 {
 impl Scalar for Interval {
     fn constant(self, x: f64) -> Self {
         Self::point(x)
+    }
+}
+
+impl<const V: usize> Scalar for Linear<V> {
+    fn constant(self, x: f64) -> Self {
+        Self::point(x)
+    }
+}
+
+impl<const V: usize, const B: usize> Scalar for Quadratic<V, B> {
+    fn constant(self, x: f64) -> Self {
+        Self::point(x)
+    }
+}
+
+/// A scalar that can be an angle.
+pub trait Angle: Scalar {
+    /// Sine and cosine of an angle in rad.
+    fn sin_cos(self) -> (Self, Self);
+}
+
+impl Angle for Interval {
+    fn sin_cos(self) -> (Self, Self) {
+        Self::sin_cos(self)
+    }
+}
+
+impl<const V: usize> Angle for Linear<V> {
+    fn sin_cos(self) -> (Self, Self) {
+        Self::sin_cos(self)
+    }
+}
+
+impl<const V: usize, const B: usize> Angle for Quadratic<V, B> {
+    fn sin_cos(self) -> (Self, Self) {
+        Self::sin_cos(self)
     }
 }
 

@@ -3,8 +3,8 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::literal::{Numbers, Rounding, count};
-use super::{Module, constant, docs, spaced, unused};
+use super::literal::{Numbers, count};
+use super::{Module, constant, spaced, unused};
 use crate::control::{Adaptation, Design, RobustGain};
 use crate::error::Error;
 use crate::spec::{CoriolisTermSpec, LawSpec, OnFaultSpec};
@@ -19,15 +19,10 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
     let rounding = super::rounding::constants(module)?;
     let settings = settings(design, numbers)?;
     let (law_type, law) = law(design, numbers)?;
-    let promised = &design.guarantee;
-    let guaranteed = promised.holds;
-    let guaranteed_docs = docs::guaranteed(promised);
-    let some = |known: bool, value: TokenStream| match known {
-        true => quote!(::core::option::Option::Some(#value)),
-        false => quote!(::core::option::Option::None),
+    let guarantee = match module.statement {
+        Some(statement) => super::guarantee::guarantee(module, design, statement)?,
+        None => quote!(),
     };
-    let period_max = some(promised.period_certified, numbers.rounded(promised.period_max, Rounding::Down)?);
-    let final_error = some(promised.holds, numbers.vector_to(&promised.final_error, Rounding::Up)?);
     let made = match module.step {
         Some(step) => super::step::step(module, step, model)?,
         None => quote! {
@@ -45,17 +40,7 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
         },
     };
     Ok(quote! {
-        #(#[doc = #guaranteed_docs])*
-        #unused
-        pub const GUARANTEED: bool = #guaranteed;
-        /// Control period, s, below which the sampled loop is stable at every D of the domain, each D kept constant. `None` if
-        /// it could not be certified.
-        #constant
-        pub const PERIOD_MAX: ::core::option::Option<#scalar> = #period_max;
-        /// Bound on |q − q_d| by joint, rad or m, once the effect of the initial errors has died away. A short motion may end
-        /// before that. `None` if nothing is guaranteed.
-        #constant
-        pub const FINAL_ERROR: ::core::option::Option<[#scalar; #n]> = #final_error;
+        #guarantee
         /// Period, torque limits and fault policy.
         #constant
         pub const SETTINGS: ::gramforge_runtime::Settings<#scalar, #n> = #settings;

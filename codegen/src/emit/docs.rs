@@ -2,7 +2,6 @@
 
 use super::Module;
 use crate::bounds::{Met, Torque, percent_up, printed_down, printed_up};
-use crate::control::Guarantee;
 use crate::domain::Domain;
 use crate::lagrangian::{Coordinates, Lagrangian};
 use crate::reduction::{Kind as ModelKind, Reduced};
@@ -200,26 +199,6 @@ fn taken(sines: &Trig, scalar: ScalarSpec) -> Option<String> {
         " Sines and cosines: {way}, off by at most {error} up to {:.0} rad.",
         libm::floor(sines.range)
     ))
-}
-
-/// Documentation of the guarantee, a line each.
-pub(super) fn guaranteed(guarantee: &Guarantee) -> Vec<String> {
-    let list = |x: &[f64]| x.iter().map(|&e| printed_down(e)).collect::<Vec<_>>().join(", ");
-    let mut lines = vec![
-        " Whether the joints stay inside the domain of the bounds from every initial error specified, as long as the"
-            .to_string(),
-        " planned motion lasts and no torque limit cuts the command.".to_string(),
-        String::new(),
-        format!(
-            " Largest initial position error for which that domain is enough, other reasons apart: ({}).",
-            list(&guarantee.initial_error_max)
-        ),
-    ];
-    if !guarantee.holds {
-        lines.extend([String::new(), " Not guaranteed, because:".to_string()]);
-        lines.extend(guarantee.reasons.iter().map(|reason| format!(" - {}", escaped(reason))));
-    }
-    lines
 }
 
 /// The functions that a reduced model keeps, as formulas; none for the exact one.

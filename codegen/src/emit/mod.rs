@@ -4,6 +4,7 @@ mod c_header;
 mod constants;
 mod controller;
 mod docs;
+mod guarantee;
 mod literal;
 mod names;
 mod reference;
@@ -34,6 +35,7 @@ use crate::control::{Design, StepGraph, StepRounding};
 use crate::domain::Domain;
 use crate::error::Error;
 use crate::graph::Graph;
+use crate::guarantee::Statement;
 use crate::lagrangian::Lagrangian;
 use crate::model::Model;
 use crate::motion::Motion;
@@ -77,6 +79,8 @@ pub struct Module<'a> {
     pub motion: Option<&'a Motion>,
     /// The controller.
     pub design: Option<&'a Design>,
+    /// What is promised of it; `None` without one.
+    pub statement: Option<&'a Statement>,
     /// Its step, where it is written out.
     pub step: Option<&'a StepGraph>,
     /// What the step rounds by.

@@ -110,6 +110,13 @@ impl Motion {
         self.acceleration_within(0.0, self.duration())
     }
 
+    /// Whether the motion is at rest at its end, and stays so: what its speed rounds by counts for nothing.
+    pub fn rests(&self) -> bool {
+        let end = self.at(self.duration());
+        let slow = |qd: &f64| qd.abs() * self.duration() <= 1e-9;
+        !matches!(self, Self::Sinusoids { .. }) && end.qd.iter().all(slow)
+    }
+
     /// Number of joints.
     pub fn dof(&self) -> usize {
         match self {

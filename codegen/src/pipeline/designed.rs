@@ -2,14 +2,18 @@
 
 use super::Means;
 use super::certified::Certified;
+use super::judged::{has_long_period, required, stable, statement_of};
 use super::replaced::{Replaced, Saving};
 use super::step_rounding::rounded_design;
 use crate::bounds::Effort;
-use crate::check::{Checked, Control, GainSource, Tuning};
-use crate::control::{Design, DesignProblem, SingleRounding, StepGraph, StepModel, StepRounding, design};
+use crate::check::{Checked, Control, GainRequest, GainSource, Tuning};
+use crate::control::{
+    Design, DesignProblem, SingleRounding, StepGraph, StepModel, StepRounding, design, proposals,
+};
 use crate::error::{Diagnostics, Error};
+use crate::guarantee::{Kind, Statement};
 use crate::progress::Silent;
-use crate::spec::RobustGainSpec;
+use crate::spec::{LawSpec, RobustGainSpec};
 
 /// A certified model with the controller that the specification asks for.
 ///
@@ -26,6 +30,8 @@ pub(super) struct Designed {
     pub rounding: Option<StepRounding>,
     /// The step of the same law about the exact model; `None` without a controller, or for a law that learns.
     pub exact_step: Option<StepGraph>,
+    /// What is promised of the controller; `None` without one, or until it is asked for.
+    pub statement: Option<Statement>,
     /// Why the model is exact though a reduced one was found; `None` where it is the one that was asked for.
     pub replaced: Option<Replaced>,
 }
@@ -37,24 +43,19 @@ impl Designed {
         let Some(control) = &certified.checked.control else {
             return Ok(Self::without_controller(certified));
         };
-        let state = || rounded_design(&certified, control, means, false);
-        let constant = || rounded_design(&certified, control, means, true);
-        let (design, step, rounding) = match control.robust_gain {
-            RobustGainSpec::State => state()?,
-            RobustGainSpec::Constant => constant()?,
-            // Where nothing is left out, there is no bracket to replace.
-            RobustGainSpec::Auto if certified.proved.bounds.is_zero() => state()?,
-            RobustGainSpec::Auto => match state() {
-                // Gains that were searched for are judged again, not searched for again.
-                Ok(own) => match rounded_design(&certified, &given(control, &own.0), means, true) {
-                    Ok(other) => cheaper(own, other),
-                    Err(_) => own,
-                },
-                // A search for gains takes long where it finds none; one is enough.
-                Err(error) if matches!(control.gains, GainSource::Requested(_)) => return Err(error),
-                Err(error) => constant().map_err(|_| error)?,
-            },
+        let judged = match &control.gains {
+            GainSource::Requested(request) if follows(&certified, control) => {
+                requested(&certified, control, request, means)?
+            }
+            _ => Self::made(&certified, control, means)?,
         };
+        let Judged { made: (design, step, rounding), mut statement } = judged;
+        if control.require_guarantee.is_some() || has_long_period(control, &design) {
+            let made = statement.unwrap_or_else(|| statement_of(&certified, &design, &rounding, means));
+            stable(&certified, &design, &made)?;
+            required(&certified, &design, &made)?;
+            statement = Some(made);
+        }
         let exact_step =
             (design.adaptation.is_none()).then(|| match certified.proved.model.reduced.is_exact() {
                 true => step.clone(),
@@ -66,12 +67,50 @@ impl Designed {
             step: Some(step),
             rounding: Some(rounding),
             exact_step,
+            statement,
             replaced: None,
         })
     }
 
+    /// The controller with the switching gain that the specification asks for.
+    fn made(certified: &Certified, control: &Control, means: Means) -> Result<Judged, Error> {
+        let state = || rounded_design(certified, control, means, false);
+        let constant = || rounded_design(certified, control, means, true);
+        Ok(match control.robust_gain {
+            RobustGainSpec::State => Judged::new(state()?),
+            RobustGainSpec::Constant => Judged::new(constant()?),
+            // Where nothing is left out, there is no bracket to replace.
+            RobustGainSpec::Auto if certified.proved.bounds.is_zero() => Judged::new(state()?),
+            RobustGainSpec::Auto => match state() {
+                // Gains that were searched for are judged again, not searched for again.
+                Ok(own) => match rounded_design(certified, &given(control, &own.0), means, true) {
+                    Ok(other) => better(certified, own, other, means),
+                    Err(_) => Judged::new(own),
+                },
+                // A search for gains takes long where it finds none; one is enough.
+                Err(error) if matches!(control.gains, GainSource::Requested(_)) => return Err(error),
+                Err(error) => Judged::new(constant().map_err(|_| error)?),
+            },
+        })
+    }
+
+    /// Judges the controller, if there is one and that was not done.
+    pub fn state(&mut self, means: Means) {
+        if let (None, Some(design), Some(rounding)) = (&self.statement, &self.design, &self.rounding) {
+            self.statement = Some(statement_of(&self.certified, design, rounding, means));
+        }
+    }
+
     fn without_controller(certified: Certified) -> Self {
-        Self { certified, design: None, step: None, rounding: None, exact_step: None, replaced: None }
+        Self {
+            certified,
+            design: None,
+            step: None,
+            rounding: None,
+            exact_step: None,
+            statement: None,
+            replaced: None,
+        }
     }
 
     /// Whether the step of the exact model is known only once its controller is designed: it has bounds of its own.
@@ -120,12 +159,83 @@ fn tuning(design: &Design) -> Tuning {
 }
 
 /// A controller, its step, and what that rounds by.
-type Judged = (Design, StepGraph, StepRounding);
+type Made = (Design, StepGraph, StepRounding);
 
-/// The one with fewer operations of those whose guarantee holds, or of both where neither does; the first where they tie.
-fn cheaper(first: Judged, second: Judged) -> Judged {
-    let rank = |(design, step, _): &Judged| (!design.guarantee.holds, step.operations().cost());
-    if rank(&second) < rank(&first) { second } else { first }
+/// The same, with what is promised of it, where that was asked.
+struct Judged {
+    made: Made,
+    statement: Option<Statement>,
+}
+
+impl Judged {
+    fn new(made: Made) -> Self {
+        Self { made, statement: None }
+    }
+
+    /// The same with what is promised of it.
+    fn stated(mut self, certified: &Certified, means: Means) -> Self {
+        let (design, _, rounding) = &self.made;
+        self.statement.get_or_insert_with(|| statement_of(certified, design, rounding, means));
+        self
+    }
+}
+
+/// Whether the errors of the sampled loop can be followed.
+fn follows(certified: &Certified, control: &Control) -> bool {
+    let checked = &certified.checked;
+    control.law != LawSpec::Adaptive && checked.motion.is_some()
+}
+
+/// The controller with gains that `request` asks for and for which the sampled loop is guaranteed: those of a level of V, or else
+/// others that are fast enough.
+///
+/// # Errors
+/// [`Error::Input`] with what stands in the way.
+fn requested(
+    certified: &Certified,
+    control: &Control,
+    request: &GainRequest,
+    means: Means,
+) -> Result<Judged, Error> {
+    let first = Designed::made(certified, control, means).map(|judged| judged.stated(certified, means));
+    let is_sampled =
+        |judged: &Judged| judged.statement.as_ref().is_some_and(|statement| statement.kind == Kind::Sampled);
+    if first.as_ref().is_ok_and(is_sampled) {
+        return first;
+    }
+    let mut nearest = first;
+    for tuning in proposed(certified, control, request)? {
+        let control = Control { gains: GainSource::Given(tuning), ..control.clone() };
+        let Ok(judged) = Designed::made(certified, &control, means) else { continue };
+        let judged = judged.stated(certified, means);
+        if is_sampled(&judged) {
+            return Ok(judged);
+        }
+        if nearest.is_err() && judged.statement.as_ref().is_some_and(|statement| statement.sampled.is_some())
+        {
+            nearest = Ok(judged);
+        }
+    }
+    let statement = nearest?.statement;
+    let reasons = statement.map_or_else(Vec::new, |statement| statement.reasons);
+    let problem = format!("cannot be met: with the best gains found, {}", reasons.join("; "));
+    let help = "take a slower motion, a smaller initial error or a wider tube, allow more time to converge, or raise the torque limits if the drives bear it";
+    Err(Error::input(&certified.checked.loaded.path, "control.design", problem, help))
+}
+
+/// The one with the stronger promise, and of equal ones that with fewer operations; the first where they tie.
+fn better(certified: &Certified, first: Made, second: Made, means: Means) -> Judged {
+    let cost = |(_, step, _): &Made| step.operations().cost();
+    let (cheap, dear) = if cost(&second) < cost(&first) { (second, first) } else { (first, second) };
+    let judged = |made: Made| Judged::new(made).stated(certified, means);
+    let cheap = judged(cheap);
+    let strongest = if certified.checked.motion.is_some() { Kind::Sampled } else { Kind::Continuous };
+    if cheap.statement.as_ref().is_some_and(|statement| statement.kind <= strongest) {
+        return cheap;
+    }
+    let dear = judged(dear);
+    let rank = |judged: &Judged| judged.statement.as_ref().map(|statement| statement.kind);
+    if rank(&dear) < rank(&cheap) { dear } else { cheap }
 }
 
 fn viscous(checked: &Checked) -> Vec<f64> {
@@ -141,9 +251,34 @@ pub(super) fn design_with(
     single: Option<&SingleRounding>,
 ) -> Result<(Design, StepGraph), Error> {
     let (checked, proved) = (&certified.checked, &certified.proved);
+    let design = with_problem(certified, control, means, single, |problem| design(problem, constant))?;
+    let viscous = viscous(checked);
+    let step = design.step(&StepModel {
+        code: &proved.model.code,
+        regressor: proved.regressor.as_ref(),
+        bounds: &proved.bounds,
+        viscous: &viscous,
+    });
+    let mut faults = Diagnostics::of(&checked.loaded.path);
+    if !(design.is_finite() && step.code.is_finite()) {
+        let problem = "gives gains or bounds on the errors that overflow";
+        faults.push("control", problem, "write gains, boundary layer and initial errors in SI units");
+    }
+    faults.finish((design, step))
+}
+
+/// What `f` makes of the problem that gains solve.
+pub(super) fn with_problem<T>(
+    certified: &Certified,
+    control: &Control,
+    means: Means,
+    single: Option<&SingleRounding>,
+    f: impl FnOnce(&DesignProblem) -> T,
+) -> T {
+    let (checked, proved) = (&certified.checked, &certified.proved);
     let error = certified.error();
     let rounding = error.rounding();
-    let problem = DesignProblem {
+    f(&DesignProblem {
         file: &checked.loaded.path,
         control,
         arm: &checked.built.arm,
@@ -160,19 +295,11 @@ pub(super) fn design_with(
         seek_tube: means.effort.seek_tube,
         torque_error: &|rates| error.torque_error(&proved.certificates, &proved.bounds, rates),
         progress: means.progress,
-    };
-    let design = design(&problem, constant)?;
-    let viscous = viscous(checked);
-    let step = design.step(&StepModel {
-        code: &proved.model.code,
-        regressor: proved.regressor.as_ref(),
-        bounds: &proved.bounds,
-        viscous: &viscous,
-    });
-    let mut faults = Diagnostics::of(&checked.loaded.path);
-    if !(design.is_finite() && step.code.is_finite()) {
-        let problem = "gives gains or bounds on the errors that overflow";
-        faults.push("control", problem, "write gains, boundary layer and initial errors in SI units");
-    }
-    faults.finish((design, step))
+    })
+}
+
+/// Gains that may meet `request`.
+fn proposed(certified: &Certified, control: &Control, request: &GainRequest) -> Result<Vec<Tuning>, Error> {
+    let means = Means { effort: &Effort::default(), progress: &Silent, cache: None };
+    with_problem(certified, control, means, None, |problem| proposals(problem, request))
 }

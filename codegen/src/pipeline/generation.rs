@@ -14,6 +14,7 @@ use crate::domain::Domain;
 use crate::emit::{CFile, Module, c_interface, emit};
 use crate::error::Error;
 use crate::graph::Graph;
+use crate::guarantee::Statement;
 use crate::lagrangian::Lagrangian;
 use crate::load::{Loaded, spec_hash};
 use crate::model::Model;
@@ -86,7 +87,8 @@ impl Generation {
     }
 
     /// The last stage: what the model's error costs in torque at the rates that the law meets.
-    pub(super) fn concluded(designed: Designed, means: Means) -> Self {
+    pub(super) fn concluded(mut designed: Designed, means: Means) -> Self {
+        designed.state(means);
         let _stage = Stage::new(means.progress, "torque error of the law", 1);
         let certified = &designed.certified;
         let rates = designed.design.as_ref().and_then(|design| design.rates.as_ref());
@@ -130,6 +132,7 @@ impl Generation {
             exact_code: self.exact_code(),
             motion: self.motion(),
             design: self.design(),
+            statement: self.statement(),
             step: self.step().filter(|_| self.spec().emit.law == LawCodeSpec::Inline),
             rounding: self.rounding(),
             scalar: self.spec().emit.scalar,
@@ -253,6 +256,11 @@ impl Generation {
     /// The controller; `None` where there is none, or where only the model was asked for.
     pub fn design(&self) -> Option<&Design> {
         self.designed.design.as_ref()
+    }
+
+    /// What is promised of the controller; `None` without one.
+    pub fn statement(&self) -> Option<&Statement> {
+        self.designed.statement.as_ref()
     }
 
     /// The controller's step, law and model as one graph; `None` without a controller.

@@ -83,7 +83,8 @@ impl Example {
             robust_gain: RobustGainSpec::State,
             adaptation: AdaptationSpec::default(),
             allow_long_period: true,
-            require_guarantee: false,
+            require_guarantee: None,
+            settle: None,
             compensate_coulomb: false,
             on_fault: OnFaultSpec::Hold,
         };

@@ -55,9 +55,12 @@ pub struct ControlSpec {
     /// Take a period longer than the sampled loop admits; nothing is guaranteed then.
     #[serde(default)]
     pub allow_long_period: bool,
-    /// Refuse a specification whose guarantee does not hold.
-    #[serde(default)]
-    pub require_guarantee: bool,
+    /// Refuse a specification whose guarantee does not hold. `true` asks for `sampled` with a motion and for `continuous` without one.
+    #[serde(default, skip_serializing_if = "RequireGuaranteeSpec::is_default")]
+    pub require_guarantee: RequireGuaranteeSpec,
+    /// Time from which errors count as settled, s. Default: eight time constants of the slowest error at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub settle: Option<f64>,
     /// Add the Coulomb friction of the desired direction to the command.
     #[serde(default)]
     pub compensate_coulomb: bool,
@@ -130,6 +133,51 @@ impl RobustGainSpec {
     /// True for what an absent field means.
     fn is_default(&self) -> bool {
         *self == Self::default()
+    }
+}
+
+/// Which guarantee must hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(untagged)]
+pub enum RequireGuaranteeSpec {
+    /// Whether one must hold.
+    Any(bool),
+    /// This one.
+    Named(GuaranteeSpec),
+}
+
+/// A kind of guarantee.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum GuaranteeSpec {
+    /// Of the loop that runs, from sample to sample along the motion.
+    Sampled,
+    /// Of the continuous law, by a level of V.
+    Continuous,
+}
+
+impl Default for RequireGuaranteeSpec {
+    fn default() -> Self {
+        Self::Any(false)
+    }
+}
+
+impl RequireGuaranteeSpec {
+    /// True for what an absent field means.
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The guarantee that must hold, along a motion or without one; `None` where none must.
+    pub fn wanted(self, motion: bool) -> Option<GuaranteeSpec> {
+        match self {
+            Self::Any(false) => None,
+            Self::Any(true) if motion => Some(GuaranteeSpec::Sampled),
+            Self::Any(true) => Some(GuaranteeSpec::Continuous),
+            Self::Named(kind) => Some(kind),
+        }
     }
 }
 

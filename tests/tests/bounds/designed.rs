@@ -79,7 +79,7 @@ fn three_link(law: &str, time: f64, period: Option<f64>) {
     let generation = ask(ARM3, law, request, 0.03, edit).unwrap();
     show(generation.design().unwrap());
     judge(law, &generation, 0.09, time, 0.03);
-    assert!(generation.module().unwrap().contains("pub const GUARANTEED: bool = true;"));
+    assert!(generation.module().unwrap().contains("Guarantee::Sampled("));
 }
 
 #[test]

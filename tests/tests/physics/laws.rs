@@ -109,7 +109,10 @@ fn every_law_is_generated_and_tracks() {
             "report" => "ReportLaw",
             _ => "ExactLaw",
         };
-        assert!(text.contains(kind) && text.contains("pub const GUARANTEED: bool"), "{text}");
+        assert!(
+            text.contains(kind) && text.contains("pub const GUARANTEE: ::gramforge_runtime::Guarantee<"),
+            "{text}"
+        );
         let metrics = run(&generation).law.metrics;
         assert!(metrics.final_error.iter().all(|e| *e < 0.1), "{law} {term}: {metrics:?}");
     }
@@ -204,7 +207,7 @@ fn a_guarantee_ends_at_the_published_initial_error() {
             v["control"]["boundary_layer"] = json!(0.2);
             v["control"]["period"] = json!(0.001);
             v["control"]["initial_error"]["position"] = json!(error);
-            v["control"]["require_guarantee"] = json!(required);
+            v["control"]["require_guarantee"] = if required { json!("continuous") } else { json!(false) };
         })
     };
     let made = with(0.01, false).unwrap();

@@ -1,10 +1,10 @@
 //! Puts it into words.
 
-use super::{ControlView, GuaranteeView, Inspection};
+use super::{ControlView, GuaranteeView, Inspection, PromiseView};
 use crate::bounds::{printed_down, printed_up};
 use crate::emit::{domain_in_words, met_in_words, rates_in_words, torque_in_words};
 use crate::graph::Operations;
-use crate::number::short;
+use crate::number::{decimal, short};
 use crate::pipeline::Generation;
 use crate::spec::MatrixSpec;
 
@@ -64,6 +64,9 @@ pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
             list(control.velocity_error)
         ));
     }
+    if let Some(promised) = &view.continuous {
+        lines.extend(continuous(promised));
+    }
     if let Some(promised) = &view.guarantee {
         lines.extend(guarantee(promised));
     }
@@ -95,38 +98,53 @@ fn list(x: &[f64]) -> String {
     x.iter().map(|&e| printed_up(e)).collect::<Vec<_>>().join(", ")
 }
 
-fn guarantee(promised: &GuaranteeView) -> Vec<String> {
+fn continuous(promised: &GuaranteeView) -> Vec<String> {
     let kind = if promised.inertia_certified { "certified" } else { "sampled" };
+    let most = promised.initial_error_max.iter().map(|&e| printed_down(e)).collect::<Vec<_>>().join(", ");
+    let holds = if promised.holds { "holds, as long as no torque limit cuts in" } else { "does not hold" };
     let mut lines = vec![
+        format!("level of V, for the continuous law: {holds}"),
+        format!("  final error: ({}), once the initial errors have died away", list(promised.final_error)),
+        format!("  largest initial error: ({most})"),
         format!(
-            "final error: ({}), {}",
-            list(promised.final_error),
-            if promised.guaranteed {
-                "once the initial errors have died away"
-            } else {
-                "but nothing is guaranteed"
-            }
+            "  smallest sufficient tube: {}",
+            promised.tube_needed.map_or("none found".to_string(), list)
         ),
         format!(
-            "largest initial error: ({})",
-            promised.initial_error_max.iter().map(|&e| printed_down(e)).collect::<Vec<_>>().join(", ")
-        ),
-        format!("smallest sufficient tube: {}", promised.tube_needed.map_or("none found".to_string(), list)),
-        format!(
-            "longest period: {} s, at every D of the domain, each D constant; lambda_min(D) >= {} ({kind})",
+            "  longest period: {} s, at every D of the domain, each D constant; lambda_min(D) >= {} ({kind})",
             printed_down(promised.period_max),
             printed_down(promised.inertia_min)
         ),
-        format!(
-            "guaranteed: {}{}",
-            promised.guaranteed,
-            if promised.guaranteed {
-                ", as long as the planned motion lasts and no torque limit cuts in"
-            } else {
-                ""
-            }
-        ),
     ];
+    lines.extend(promised.reasons.iter().map(|reason| format!("  {reason}")));
+    lines
+}
+
+fn guarantee(promised: &PromiseView) -> Vec<String> {
+    let mut lines = vec![format!("guarantee: {}", promised.kind)];
+    let mut bound = |what: &str, x: &Option<Vec<f64>>| {
+        if let Some(x) = x {
+            lines.push(format!("  {what}: ({})", list(x)));
+        }
+    };
+    bound("largest error at any time", &promised.reach);
+    if let Some(settle) = promised.settle {
+        bound(&format!("largest error from {} s on", decimal(settle, 3)), &promised.settled_error);
+    }
+    bound("largest error at the end of the motion", &promised.end_error);
+    bound("largest initial error", &promised.initial_error_max);
+    if promised.reach.is_some() {
+        let until =
+            promised.valid_until.map_or("for ever".to_string(), |end| format!("until {} s", short(end)));
+        lines.push(format!("  holds {until}"));
+    }
+    if let (Some(low), Some(high)) = (&promised.torque_min, &promised.torque_max) {
+        let shown = |x: &[f64]| x.iter().map(|x| short(*x)).collect::<Vec<_>>().join(", ");
+        lines.push(format!("  torque asked for: from ({}) to ({})", shown(low), shown(high)));
+    }
+    if let Some(period) = promised.period_max {
+        lines.push(format!("  longest period: {} s", printed_down(period)));
+    }
     lines.extend(promised.reasons.iter().map(|reason| format!("  {reason}")));
     lines
 }

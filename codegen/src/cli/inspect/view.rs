@@ -2,18 +2,19 @@
 
 use super::{
     AdaptationView, BoundsView, ControlView, Costs, DomainView, EstimateView, GuaranteeView, Inspection,
-    RangeView, RatesView, StepCosts,
+    PromiseView, RangeView, RatesView, StepCosts,
 };
-use crate::bounds::{Bounds, Effort, Rates, estimate, factor_bounds, worst_ratio};
+use crate::bounds::{Bounds, Effort, Rates, estimate, factor_bounds, six_digits_up, worst_ratio};
 use crate::control::{Envelope, RobustGain, StepGraph};
 use crate::domain::Domain;
 use crate::emit::functions;
-use crate::pipeline::Generation;
+use crate::guarantee::Sampled;
+use crate::pipeline::{Generation, Limits};
 use crate::reduction::Dictionary;
 use crate::spec::MatrixSpec;
 
 /// `size` is that of the module, bytes.
-pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
+pub(super) fn view(generation: &Generation, size: usize, limits: Option<Limits>) -> Inspection<'_> {
     let (arm, lagrangian, reduced) = (generation.arm(), generation.lagrangian(), generation.reduced());
     let (code, exact_code) = (generation.code(), generation.exact_code());
     let design = generation.design();
@@ -38,10 +39,10 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
             speed,
         }
     });
-    let guarantee = design.as_ref().map(|design| {
+    let continuous = design.as_ref().map(|design| {
         let promised = &design.guarantee;
         GuaranteeView {
-            guaranteed: promised.holds,
+            holds: promised.holds,
             reasons: &promised.reasons,
             initial_error_max: &promised.initial_error_max,
             period_max: promised.period_max,
@@ -83,9 +84,31 @@ pub(super) fn view(generation: &Generation, size: usize) -> Inspection<'_> {
         step_rounding: generation.rounding().map(|rounding| rounding.torque.as_slice()),
         size,
         control,
-        guarantee,
+        guarantee: promise(generation, limits),
+        continuous,
         warnings: generation.warnings(),
     }
+}
+
+fn promise(generation: &Generation, limits: Option<Limits>) -> Option<PromiseView<'_>> {
+    let statement = generation.statement()?;
+    let sampled = statement.sampled.as_ref();
+    let up = |x: &[f64]| -> Vec<f64> { x.iter().map(|x| six_digits_up(*x)).collect() };
+    let [low, high] = sampled.map(Sampled::torque_range).map_or([None, None], |range| range.map(Some));
+    let (period_max, initial_error_max) = limits.map(|limits| (limits.period, limits.initial_error)).unzip();
+    Some(PromiseView {
+        kind: statement.kind.name(),
+        reasons: &statement.reasons,
+        reach: sampled.map(|sampled| up(&sampled.reach)),
+        settle: sampled.map(|sampled| sampled.settle),
+        settled_error: sampled.and_then(|sampled| sampled.settled_error.as_deref()).map(up),
+        end_error: sampled.map(|sampled| up(&sampled.end_error)),
+        valid_until: sampled.and_then(|sampled| sampled.valid_until),
+        torque_min: low,
+        torque_max: high,
+        period_max,
+        initial_error_max,
+    })
 }
 
 fn bounds_view(generation: &Generation) -> BoundsView<'_> {

@@ -32,14 +32,14 @@ pub struct StepParts<'a> {
     pub law: LawSpec,
     /// P12, K and Pqq.
     pub gains: &'a Gains,
+    /// K, with ΔC1 where the law subtracts ΔC1 s.
+    pub damping: &'a [Vec<f64>],
     /// ρ of a robust law.
     pub robust_gain: &'a RobustGain,
     /// The variant of (34).
     pub coriolis_term: CoriolisTermSpec,
     /// ΔC of equation (30), n×n, N·m·s/rad.
     pub delta_c: &'a [Vec<f64>],
-    /// ΔC1, n×n, N·m·s/rad.
-    pub delta_c1: &'a [Vec<f64>],
     /// What the model leaves out.
     pub bounds: &'a Bounds,
     /// Bound on torques that no model has, by joint, N·m or N.
@@ -104,7 +104,6 @@ impl StepParts<'_> {
         let tracking = self.tracking(&builder);
         let (passivity, columns) = self.passivity(&builder, &tracking);
         let switched = self.switched(&builder, &tracking);
-        let damping = self.damping();
         let feedback = |i: usize| {
             let inputs = |of: fn(usize) -> Variable| builder.input(of(i));
             let [forwards, backwards] = self.coulomb[i].map(|level| builder.constant(level));
@@ -112,7 +111,7 @@ impl StepParts<'_> {
             let coulomb = inputs(Variable::DesiredQd).select(forwards, backwards, builder.constant(0.0));
             let torque =
                 passivity[i] + viscous + coulomb + weighed(&builder, &self.gains.pqq[i], &tracking.q_e)
-                    - weighed(&builder, &damping[i], &tracking.s);
+                    - weighed(&builder, &self.damping[i], &tracking.s);
             switched[i].map_or(torque, |switched| torque - switched).named(&format!("tau{}", i + 1), true)
         };
         let torques: Vec<Expr> = (0..n).map(feedback).collect();
@@ -177,19 +176,6 @@ impl StepParts<'_> {
                 .fold(base, |sum, (k, column)| sum + builder.input(Variable::Theta(k)) * column[i])
         };
         (outputs.iter().enumerate().map(at_theta).collect(), columns)
-    }
-
-    /// K, with ΔC1 where the law subtracts ΔC1 s.
-    fn damping(&self) -> Vec<Vec<f64>> {
-        let damping = &self.gains.damping;
-        let more = self.law.has_bracket()
-            && self.coriolis_term == CoriolisTermSpec::Matrix
-            && *self.robust_gain == RobustGain::State;
-        if !more {
-            return damping.clone();
-        }
-        let sum = |(k, c): (&Vec<f64>, &Vec<f64>)| k.iter().zip(c).map(|(k, c)| k + c).collect();
-        damping.iter().zip(self.delta_c1).map(sum).collect()
     }
 }
 

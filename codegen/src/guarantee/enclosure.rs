@@ -1,0 +1,198 @@
+//! The dynamics about one desired state: values, slopes, and what is of second order over a box of displacements.
+
+use crate::arm::Arm;
+use crate::dynamics::{Jet, enclosed_positions, passivity_torque};
+use crate::motion::Target;
+use crate::numerics::linear::Linear;
+use crate::numerics::quadratic::Quadratic;
+
+/// Numbers as functions of displacements x: centre + slopes x ± λ² rest ± rounding, where |x_k| ≤ λ times the half side of the
+/// box that they were made for, λ ≤ 1.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Forms {
+    pub(super) centre: Vec<f64>,
+    /// Row by row, per unit of the displacements.
+    slopes: Vec<f64>,
+    pub(super) rest: Vec<f64>,
+    pub(super) rounding: Vec<f64>,
+    variables: usize,
+}
+
+impl Forms {
+    /// Where the unknowns stand for displacements up to `half`, of which only the first `variables` count.
+    fn new<const V: usize>(numbers: &[Linear<V>], half: &[f64], variables: usize) -> Self {
+        let mut out = Self { variables, ..Self::default() };
+        for number in numbers {
+            out.centre.push(number.centre);
+            out.rest.push(number.rest);
+            out.rounding.push(number.rounding);
+            let slopes = number.slopes.iter().zip(half).take(variables);
+            out.slopes.extend(slopes.map(|(slope, half)| slope / half));
+        }
+        out
+    }
+
+    /// The slopes of number `row`.
+    pub(super) fn slopes(&self, row: usize) -> &[f64] {
+        self.slopes.get(row * self.variables..(row + 1) * self.variables).unwrap_or(&[])
+    }
+
+    /// Bound on what number `row` differs from its centre by, for |x| ≤ `x` and that `lambda`.
+    pub(super) fn change(&self, row: usize, x: &[f64], lambda: f64) -> f64 {
+        let linear: f64 = self.slopes(row).iter().zip(x).map(|(slope, x)| slope.abs() * x).sum();
+        linear + self.beyond(row, lambda)
+    }
+
+    /// The same without what is linear.
+    pub(super) fn beyond(&self, row: usize, lambda: f64) -> f64 {
+        lambda * lambda * self.rest[row] + self.rounding[row]
+    }
+}
+
+/// D as a function of the displacement of q: centre + Σ slopes_k x_k + Σ_(k≤l) bends_kl x_k x_l ± λ³ rest ± rounding, entries by rows.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Curved {
+    pub(super) centre: Vec<f64>,
+    /// For each k the derivatives of all entries.
+    pub(super) slopes: Vec<Vec<f64>>,
+    /// For each pair k ≤ l.
+    pub(super) bends: Vec<((usize, usize), Vec<f64>)>,
+    pub(super) rest: Vec<f64>,
+    pub(super) rounding: Vec<f64>,
+}
+
+impl Curved {
+    fn new<const V: usize, const B: usize>(entries: &[Quadratic<V, B>], half: &[f64], n: usize) -> Self {
+        let mut pairs = (0..V).flat_map(|k| (k..V).map(move |l| (k, l))).zip(0..B);
+        let all = |of: &dyn Fn(&Quadratic<V, B>) -> f64| entries.iter().map(of).collect::<Vec<f64>>();
+        Self {
+            centre: all(&|entry| entry.centre),
+            slopes: (0..n).map(|k| all(&|entry| entry.slopes[k] / half[k])).collect(),
+            bends: pairs
+                .by_ref()
+                .filter(|((k, l), _)| *k < n && *l < n)
+                .map(|((k, l), at)| ((k, l), all(&|entry| entry.bends[at] / (half[k] * half[l]))))
+                .collect(),
+            rest: all(&|entry| entry.rest),
+            rounding: all(&|entry| entry.rounding),
+        }
+    }
+
+    /// Bound on what entry `at` differs from its centre by, for displacements of q up to `x`, and that λ.
+    pub(super) fn change(&self, at: usize, x: &[f64], lambda: f64) -> f64 {
+        let linear: f64 = self.slopes.iter().zip(x).map(|(slopes, x)| slopes[at].abs() * x).sum();
+        let bent: f64 = self.bends.iter().map(|((k, l), bends)| bends[at].abs() * x[*k] * x[*l]).sum();
+        linear + bent + self.beyond(at, lambda)
+    }
+
+    /// The part of it that is of third order or rounds.
+    pub(super) fn beyond(&self, at: usize, lambda: f64) -> f64 {
+        lambda * lambda * lambda * self.rest[at] + self.rounding[at]
+    }
+}
+
+/// One arm about a desired state. Displacements are those of (q, q̇) from (q_d, q̇_d).
+#[derive(Clone, Debug)]
+pub(super) struct Enclosure {
+    /// D(q), n×n: a function of the displacement of q alone.
+    pub(super) mass_matrix: Curved,
+    /// The Christoffel form C(q, q̇), n×n.
+    pub(super) coriolis: Forms,
+    /// D a_r + C v + G with a_r = q̈_d − P12 q̇_e: v is v_r = q̇_d − P12 q_e for the arm of the model, and q̇ for what an
+    /// uncertain number adds to it.
+    pub(super) torque: Forms,
+    /// d/dt(D q̈_d + C q̇ + G) along q̇ and q̈_d, with q̈_d held.
+    pub(super) rate: Forms,
+}
+
+/// About which state, and how far around it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Around<'a> {
+    pub(super) target: &'a Target,
+    pub(super) p12: &'a [Vec<f64>],
+    /// Half the sides of the box of displacements of q, then of q̇; each above 0.
+    pub(super) half: &'a [f64],
+}
+
+/// Calls `f::<N, 2N, N(N + 1)/2>` for the number of joints.
+macro_rules! by_joints {
+    ($f:ident, $n:expr, $arguments:tt, [$($joints:literal $both:literal $pairs:literal),*]) => {
+        match $n { $($joints => $f::<$joints, $both, $pairs> $arguments,)* _ => $f::<8, 16, 36> $arguments }
+    };
+}
+
+impl Enclosure {
+    /// Of `arm`; of what an uncertain number adds, where it is not `own`.
+    pub(super) fn new(arm: &Arm, around: Around, own: bool) -> Self {
+        by_joints!(
+            enclose,
+            arm.dof(),
+            (arm, around, own),
+            [1 2 1, 2 4 3, 3 6 6, 4 8 10, 5 10 15, 6 12 21, 7 14 28]
+        )
+    }
+}
+
+fn enclose<const N: usize, const V: usize, const B: usize>(
+    arm: &Arm,
+    around: Around,
+    own: bool,
+) -> Enclosure {
+    let Around { target, p12, half } = around;
+    let n = arm.dof();
+    let zero = Linear::<V>::point(0.0);
+    let rest = vec![zero; n];
+    let unit = |j: usize| -> Vec<Linear<V>> {
+        (0..n).map(|i| Linear::point(if i == j { 1.0 } else { 0.0 })).collect()
+    };
+    let q: Vec<Linear<V>> = (0..n).map(|i| Linear::unknown(target.q[i], i, half[i])).collect();
+    let qd: Vec<Linear<V>> = (0..n).map(|i| Linear::unknown(target.qd[i], n + i, half[n + i])).collect();
+    let positions = enclosed_positions(arm, &q);
+    let columns = |of: &dyn Fn(usize) -> Vec<Linear<V>>, variables: usize| {
+        let columns: Vec<Vec<Linear<V>>> = (0..n).map(of).collect();
+        let entries: Vec<Linear<V>> = (0..n * n).map(|at| columns[at % n][at / n]).collect();
+        Forms::new(&entries, half, variables)
+    };
+    let mass_matrix = mass_matrix::<N, B>(arm, target, half);
+    let coriolis = columns(&|j| passivity_torque(arm, [0.0; 3], &positions, &qd, &unit(j), &rest), 2 * n);
+    let weighed = |i: usize, from: usize| {
+        let term = |sum: Linear<V>, j: usize| {
+            sum + Linear::point(p12[i][j]) * Linear::unknown(0.0, from + j, half[from + j])
+        };
+        (0..n).fold(zero, term)
+    };
+    let a_r: Vec<Linear<V>> = (0..n).map(|i| Linear::point(target.qdd[i]) - weighed(i, n)).collect();
+    let v_r: Vec<Linear<V>> = (0..n).map(|i| Linear::point(target.qd[i]) - weighed(i, 0)).collect();
+    let v = if own { &v_r } else { &qd };
+    let torque = passivity_torque(arm, arm.gravity, &positions, &qd, v, &a_r);
+    let rate = rate(arm, target, &q, &qd);
+    let forms = |numbers: &[Linear<V>]| Forms::new(numbers, half, 2 * n);
+    Enclosure { mass_matrix, coriolis, torque: forms(&torque), rate: forms(&rate) }
+}
+
+fn mass_matrix<const N: usize, const B: usize>(arm: &Arm, target: &Target, half: &[f64]) -> Curved {
+    let n = arm.dof();
+    let point = Quadratic::<N, B>::point;
+    let q: Vec<Quadratic<N, B>> = (0..n).map(|i| Quadratic::unknown(target.q[i], i, half[i])).collect();
+    let positions = enclosed_positions(arm, &q);
+    let rest = vec![point(0.0); n];
+    let column = |j: usize| {
+        let unit: Vec<_> = (0..n).map(|i| point(if i == j { 1.0 } else { 0.0 })).collect();
+        passivity_torque(arm, [0.0; 3], &positions, &rest, &rest, &unit)
+    };
+    let columns: Vec<Vec<_>> = (0..n).map(column).collect();
+    let entries: Vec<_> = (0..n * n).map(|at| columns[at % n][at / n]).collect();
+    Curved::new(&entries, half, n)
+}
+
+fn rate<const V: usize>(arm: &Arm, target: &Target, q: &[Linear<V>], qd: &[Linear<V>]) -> Vec<Linear<V>> {
+    let with = |value: &[Linear<V>], rate: &[Linear<V>]| -> Vec<Jet<Linear<V>>> {
+        value.iter().zip(rate).map(|(&value, &rate)| Jet { value, rate }).collect()
+    };
+    let qdd: Vec<Linear<V>> = target.qdd.iter().map(|&x| Linear::point(x)).collect();
+    let still = vec![Linear::point(0.0); q.len()];
+    let positions = enclosed_positions(arm, &with(q, qd));
+    let speed = with(qd, &qdd);
+    let torque = passivity_torque(arm, arm.gravity, &positions, &speed, &speed, &with(&qdd, &still));
+    torque.into_iter().map(|jet| jet.rate).collect()
+}

@@ -1,0 +1,275 @@
+//! The whole claim: along the motion, and after it for as long as it holds.
+
+use nalgebra::DMatrix;
+
+use super::funnel::{Funnel, Lost, Step};
+use super::problem::Problem;
+use super::repetition::Repetition;
+use super::set::ErrorSet;
+use crate::bounds::{down, six_digits_up};
+
+/// Most periods that are followed one by one.
+const MOST: f64 = 4e5;
+/// Most periods after the motion in which the errors are to settle.
+const LATE: f64 = 10_000.0;
+/// Time constants of the slowest error after which it counts as settled.
+const SETTLED: f64 = 8.0;
+/// How much larger than the set a box is that is to hold for ever.
+const ROOM: f64 = 1.05;
+/// Trials to find such a box, and most periods that it may take to come back into it.
+const TRIALS: usize = 12;
+const RETURN: usize = 4000;
+
+/// What is proved of the sampled loop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sampled {
+    /// Bound by joint on |q_e| at any time, rad or m.
+    pub reach: Vec<f64>,
+    /// Time from which the errors count as settled, s.
+    pub settle: f64,
+    /// Bound by joint on |q_e| from `settle` on; `None` where the claim ends before.
+    pub settled_error: Option<Vec<f64>>,
+    /// Bound by joint on |q_e| at the end of the motion.
+    pub end_error: Vec<f64>,
+    /// Bound by joint on |q̇_e| at the samples, rad/s or m/s.
+    pub speed_error: Vec<f64>,
+    /// Time until which all that holds, s; `None` for ever.
+    pub valid_until: Option<f64>,
+    /// Range of the torque that the law asks for, by joint, N·m or N.
+    pub torque: Vec<[f64; 2]>,
+    /// When the torque comes nearest to its limits, by joint, s.
+    pub torque_time: Vec<f64>,
+    /// Bound by joint on |q_e| during each period that was followed, with its end, s.
+    pub course: Vec<(f64, Vec<f64>)>,
+}
+
+impl Sampled {
+    /// Least and largest torque that the law asks for, by joint, N·m or N, rounded outwards.
+    pub fn torque_range(&self) -> [Vec<f64>; 2] {
+        let outwards = |x: f64| if x >= 0.0 { six_digits_up(x) } else { -down(-x, 6) };
+        let high = self.torque.iter().map(|range| outwards(range[1])).collect();
+        [self.torque.iter().map(|range| -outwards(-range[0])).collect(), high]
+    }
+}
+
+/// Why nothing is proved.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Open {
+    Lost(Lost),
+    /// The errors go beyond those that the loop's errors in torque were bounded for: of position, then of speed.
+    Wider(Vec<f64>),
+    /// The motion takes this many periods.
+    Long(f64),
+}
+
+/// The claim while it grows.
+struct Claim<'a> {
+    problem: &'a Problem<'a>,
+    /// Bounds on |q_e| and |q̇_e| for which the torque error holds.
+    declared: &'a [f64],
+    out: Sampled,
+    settled: Vec<f64>,
+}
+
+/// Follows the loop of `problem`, whose torque error holds while (|q_e|, |q̇_e|) ≤ `declared`.
+pub(super) fn follow(problem: &Problem, declared: &[f64], settle: Option<f64>) -> Result<Sampled, Open> {
+    let n = problem.arm.dof();
+    let motion = problem.motion;
+    let periods = motion.duration() / problem.period;
+    let repetition = Repetition::of(motion, problem.period);
+    let (whole, rests) = (libm::ceil(periods - 1e-9), motion.rests());
+    // A motion that does not rest at its end is claimed for as long as it was planned.
+    let last = if rests { whole } else { libm::floor(periods + 1e-9) };
+    let last = repetition.as_ref().map_or(last, |repetition| last.min(repetition.periods as f64));
+    if last > MOST {
+        return Err(Open::Long(last));
+    }
+    let mut funnel = Funnel::new(problem);
+    let settle = settle.unwrap_or_else(|| settling(problem, &funnel));
+    let mut claim = Claim::new(problem, declared, settle, n);
+    claim.start(&funnel.set)?;
+    while (funnel.index as f64) < last {
+        claim.take(&funnel.step().map_err(Open::Lost)?)?;
+    }
+    claim.out.end_error = funnel.set.hull()[..n].to_vec();
+    if rests {
+        claim.rest(&mut funnel)?;
+    } else if repetition.is_some() {
+        claim.repeat(&funnel.set, last as usize)?;
+    } else {
+        claim.out.valid_until = Some(last * problem.period);
+    }
+    Ok(claim.finished())
+}
+
+impl<'a> Claim<'a> {
+    fn new(problem: &'a Problem<'a>, declared: &'a [f64], settle: f64, n: usize) -> Self {
+        let out = Sampled {
+            reach: vec![0.0; n],
+            settle,
+            settled_error: None,
+            end_error: vec![0.0; n],
+            speed_error: vec![0.0; n],
+            valid_until: None,
+            torque: vec![[f64::INFINITY, f64::NEG_INFINITY]; n],
+            torque_time: vec![0.0; n],
+            course: Vec::new(),
+        };
+        Self { problem, declared, out, settled: vec![0.0; n] }
+    }
+
+    /// The set at the start.
+    fn start(&mut self, set: &ErrorSet) -> Result<(), Open> {
+        let n = self.problem.arm.dof();
+        let hull = set.hull();
+        self.out.course.push((0.0, hull[..n].to_vec()));
+        self.within(&hull)
+    }
+
+    fn within(&self, hull: &[f64]) -> Result<(), Open> {
+        let inside = hull.iter().zip(self.declared).all(|(x, declared)| x <= declared);
+        if inside { Ok(()) } else { Err(Open::Wider(hull.to_vec())) }
+    }
+
+    fn take(&mut self, step: &Step) -> Result<(), Open> {
+        let hull: Vec<f64> = step.end.iter().chain(&step.speed).copied().collect();
+        self.within(&hull)?;
+        self.count(step);
+        self.out.course.push((step.time, step.during.clone()));
+        Ok(())
+    }
+
+    fn count(&mut self, step: &Step) {
+        let settled = step.time > self.out.settle;
+        for i in 0..step.end.len() {
+            self.out.reach[i] = self.out.reach[i].max(step.during[i]);
+            self.out.speed_error[i] = self.out.speed_error[i].max(step.speed[i]);
+            if settled {
+                self.settled[i] = self.settled[i].max(step.during[i]);
+            }
+            let range = &mut self.out.torque[i];
+            let [low, high] = step.torque[i];
+            if high.max(-low) > range[1].max(-range[0]) || range[1] < range[0] {
+                self.out.torque_time[i] = step.time - self.problem.period;
+            }
+            *range = [range[0].min(low), range[1].max(high)];
+        }
+    }
+
+    /// What comes again and again has settled whenever it is looked at.
+    fn count_for_ever(&mut self, step: &Step) {
+        self.count(step);
+        for (settled, during) in self.settled.iter_mut().zip(&step.during) {
+            *settled = settled.max(*during);
+        }
+    }
+
+    /// After the motion: until a box is found from which the errors come back into it.
+    fn rest(&mut self, funnel: &mut Funnel) -> Result<(), Open> {
+        let end = funnel.index;
+        let period = self.problem.period;
+        // What holds for ever holds once the errors have settled, as small as they are then.
+        let settled = libm::ceil(self.out.settle / period).min(end as f64 + LATE);
+        while (funnel.index as f64) < settled {
+            match funnel.step() {
+                Ok(step) => self.take(&step)?,
+                Err(_) => break,
+            }
+        }
+        let step = (0.25 / period).max(1.0) as usize;
+        for _ in 0..TRIALS {
+            if self.returns(&funnel.set, funnel.index)? {
+                self.out.valid_until = None;
+                return Ok(());
+            }
+            for _ in 0..step {
+                match funnel.step() {
+                    Ok(step) => self.take(&step)?,
+                    Err(_) => break,
+                }
+            }
+        }
+        self.out.valid_until = Some(funnel.index as f64 * period);
+        Ok(())
+    }
+
+    /// Whether some box around `set` holds the errors again after a number of periods at rest from period `index` on.
+    fn returns(&mut self, set: &ErrorSet, index: usize) -> Result<bool, Open> {
+        let gains = self.problem.gains;
+        let around: Vec<f64> = set.turned_hull(gains).iter().map(|x| ROOM * x + 1e-13).collect();
+        let n = self.problem.arm.dof();
+        let mut start = ErrorSet::new(&vec![0.0; n], &vec![0.0; n], self.problem.numbers.len());
+        start.add_box(gains, &around);
+        let mut funnel = Funnel::from(self.problem, start, index);
+        let mut steps = Vec::new();
+        for k in 0..RETURN {
+            let Ok(step) = funnel.step() else { return Ok(false) };
+            let hull: Vec<f64> = step.end.iter().chain(&step.speed).copied().collect();
+            if self.within(&hull).is_err() {
+                return Ok(false);
+            }
+            steps.push(step);
+            if k % 8 == 7 {
+                let back = funnel.set.turned_hull(gains);
+                if back.iter().zip(&around).all(|(back, around)| back <= around) {
+                    steps.iter().for_each(|step| self.count_for_ever(step));
+                    return Ok(true);
+                }
+            }
+        }
+        Ok(false)
+    }
+
+    /// Whether a box around the set at the end of the first repetition holds it again at the end of the next.
+    fn repeat(&mut self, set: &ErrorSet, periods: usize) -> Result<(), Open> {
+        let (gains, n) = (self.problem.gains, self.problem.arm.dof());
+        let around: Vec<f64> = set.turned_hull(gains).iter().map(|x| ROOM * x + 1e-13).collect();
+        let mut start = ErrorSet::new(&vec![0.0; n], &vec![0.0; n], self.problem.numbers.len());
+        start.add_box(gains, &around);
+        let mut funnel = Funnel::from(self.problem, start, 0);
+        let offset = periods as f64 * self.problem.period;
+        let mut steps = Vec::new();
+        let mut back = Vec::new();
+        for _ in 0..periods {
+            let Ok(step) = funnel.step() else { break };
+            steps.push(Step { time: step.time + offset, ..step });
+            if funnel.index == periods {
+                back = funnel.set.turned_hull(gains);
+            }
+        }
+        let held =
+            back.len() == around.len() && back.iter().zip(&around).all(|(back, around)| back <= around);
+        let duration = self.problem.motion.duration();
+        self.out.valid_until = Some(if held { duration } else { offset.min(duration) });
+        if held {
+            for step in &steps {
+                let hull: Vec<f64> = step.end.iter().chain(&step.speed).copied().collect();
+                self.within(&hull)?;
+                self.count_for_ever(step);
+            }
+            for (end, step) in self.out.end_error.iter_mut().zip(0..n) {
+                *end = steps.iter().map(|during| during.during[step]).fold(0.0, f64::max);
+            }
+        }
+        Ok(())
+    }
+
+    fn finished(mut self) -> Sampled {
+        let ends = self.out.valid_until;
+        if ends.is_none_or(|end| end > self.out.settle) {
+            self.out.settled_error = Some(self.settled);
+        }
+        self.out
+    }
+}
+
+/// The time in which the slowest error of the loop that is frozen at the start falls to e⁻⁸ of itself, s. An estimate: it says
+/// from when on errors are counted, and the count itself is a bound.
+fn settling(problem: &Problem, funnel: &Funnel) -> f64 {
+    let Some(map) = funnel.frozen() else { return problem.motion.duration() };
+    let n = map.len();
+    let matrix = DMatrix::from_fn(n, n, |i, j| map[i][j]);
+    let slowest = matrix.complex_eigenvalues().iter().map(|x| libm::hypot(x.re, x.im)).fold(0.0, f64::max);
+    let rate = -libm::log(slowest) / problem.period;
+    if rate > 0.0 { SETTLED / rate } else { f64::INFINITY }
+}

@@ -1,0 +1,17 @@
+//! What is promised of the loop that runs: sampled, joint by joint, over time.
+
+mod course;
+mod enclosure;
+mod follow;
+mod funnel;
+mod local;
+mod period;
+mod problem;
+mod repetition;
+mod sampled;
+mod set;
+mod statement;
+
+pub use follow::Sampled;
+pub use sampled::{SampledLoop, Wrong};
+pub use statement::{Kind, Statement};
