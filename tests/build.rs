@@ -28,6 +28,7 @@ fn main() {
         "single_stanford",
         "single_tight",
         "single_csv",
+        "single_guaranteed",
         "single_sinusoids",
     ];
     let config =

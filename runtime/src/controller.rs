@@ -6,6 +6,7 @@ use crate::{ConfigError, Desired, Fault, Model, Quantity, Real, Requirement};
 
 /// What the controller commands when a number is infinite or NaN.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum OnFault {
     /// The last command that was computed without a fault; no torque before the first.
     #[default]
@@ -18,6 +19,7 @@ pub enum OnFault {
 
 /// What the loop needs beside model and law.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Settings<T, const N: usize> {
     /// Time from one step to the next, s, positive.
     pub period: T,
@@ -62,6 +64,7 @@ impl<T: Real, const N: usize> Settings<T, N> {
 
 /// The outcome of one good step.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Command<T, const N: usize> {
     /// Torque to hold until the next step, N·m, within the limits.
     pub torque: [T; N],

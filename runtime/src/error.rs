@@ -5,6 +5,7 @@ use core::fmt::{self, Debug, Display, Formatter};
 
 /// A number that a controller or a simulation refuses to be built with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ConfigError {
     /// Name of the parameter, as it is spelt in its struct.
     pub parameter: &'static str,
@@ -16,6 +17,7 @@ pub struct ConfigError {
 
 /// What a parameter must be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Requirement {
     /// Neither infinite nor NaN.
     Finite,
@@ -67,6 +69,7 @@ impl Error for ConfigError {}
 
 /// A quantity of the control loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Quantity {
     /// Measured position q.
     Position,
@@ -97,6 +100,7 @@ impl Display for Quantity {
 
 /// A control step that met a number which is infinite or NaN, and what to command instead.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Fault<T, const N: usize> {
     /// The quantity that is not finite; of several the first in the order of [`Quantity`].
     pub quantity: Quantity,
@@ -116,6 +120,7 @@ impl<T: Debug, const N: usize> Error for Fault<T, N> {}
 
 /// A simulation that cannot go on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum PlantError {
     /// The mass matrix is not positive definite: the plant's model is not that of an arm.
     MassMatrix,

@@ -4,6 +4,7 @@
 ///
 /// The conditions stand in the documentation of that constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Guarantee<T, const N: usize> {
     /// Nothing is promised.
     None,
@@ -18,6 +19,7 @@ pub enum Guarantee<T, const N: usize> {
 
 /// Bounds on the errors q − q_d of a sampled loop along its planned motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SampledErrors<T, const N: usize> {
     /// Bound on |q − q_d| at any time, by joint, rad or m.
     pub reach: [T; N],

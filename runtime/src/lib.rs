@@ -68,6 +68,7 @@ extern crate std;
 mod cholesky;
 mod controller;
 mod error;
+mod estimate;
 mod guarantee;
 pub mod law;
 mod model;
@@ -83,6 +84,7 @@ mod vector;
 
 pub use controller::{Command, Controller, OnFault, Settings, TorqueController};
 pub use error::{ConfigError, Fault, PlantError, Quantity, Requirement};
+pub use estimate::Estimate;
 pub use guarantee::{Guarantee, SampledErrors};
 pub use law::{
     AdaptiveLaw, ConstantGainLaw, CoriolisTerm, ExactLaw, Gains, Law, ReportLaw, Switching, TightLaw,

@@ -1,13 +1,14 @@
-/* A controller in f32, C99 and C++17. Each line of the input is a step, of which the answer is one line of bits. */
+/* A controller in f32 that learns, C99 and C++17. Each line of the input is a period and a state: the number of the period, the
+ * errors of position and velocity. The answer is one line of bits: the desired motion, the torque, what is learnt. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "step_single.h"
+#include "single_adaptive.h"
 
 static int numbers(float *x)
 {
-    for (int i = 0; i < STEP_SINGLE_JOINTS; i++) {
+    for (int i = 0; i < SINGLE_ADAPTIVE_JOINTS; i++) {
         uint32_t bits;
         if (scanf("%" SCNx32, &bits) != 1)
             return 0;
@@ -16,20 +17,36 @@ static int numbers(float *x)
     return 1;
 }
 
+static void print(const float *x, int count)
+{
+    for (int i = 0; i < count; i++) {
+        uint32_t bits;
+        memcpy(&bits, &x[i], sizeof bits);
+        printf(" %" PRIx32, bits);
+    }
+}
+
 int main(void)
 {
-    struct step_single_controller controller;
-    struct step_single_desired desired;
-    struct step_single_command command;
-    float q[STEP_SINGLE_JOINTS], qd[STEP_SINGLE_JOINTS];
-    step_single_init(&controller);
-    while (numbers(q) && numbers(qd) && numbers(desired.q) && numbers(desired.qd) && numbers(desired.qdd)) {
-        printf("%d", (int)step_single_step(&controller, q, qd, &desired, &command));
-        for (int i = 0; i < STEP_SINGLE_JOINTS; i++) {
-            uint32_t bits;
-            memcpy(&bits, &command.torque[i], sizeof bits);
-            printf(" %" PRIx32, bits);
+    struct single_adaptive_controller controller;
+    struct single_adaptive_desired desired;
+    struct single_adaptive_command command;
+    float q[SINGLE_ADAPTIVE_JOINTS], qd[SINGLE_ADAPTIVE_JOINTS], theta[SINGLE_ADAPTIVE_PARAMETERS];
+    uint32_t tick;
+    single_adaptive_init(&controller);
+    while (scanf("%" SCNu32, &tick) == 1 && numbers(q) && numbers(qd)) {
+        printf("%d", (int)single_adaptive_reference(tick, &desired));
+        print(desired.q, SINGLE_ADAPTIVE_JOINTS);
+        print(desired.qd, SINGLE_ADAPTIVE_JOINTS);
+        print(desired.qdd, SINGLE_ADAPTIVE_JOINTS);
+        for (int i = 0; i < SINGLE_ADAPTIVE_JOINTS; i++) {
+            q[i] += desired.q[i];
+            qd[i] += desired.qd[i];
         }
+        printf(" %d", (int)single_adaptive_step(&controller, q, qd, &desired, &command));
+        print(command.torque, SINGLE_ADAPTIVE_JOINTS);
+        single_adaptive_learnt(&controller, theta);
+        print(theta, SINGLE_ADAPTIVE_PARAMETERS);
         putchar('\n');
     }
     return 0;

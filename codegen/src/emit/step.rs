@@ -25,9 +25,10 @@ pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<T
     let (statements, values) = statements::parts_with(&step.code, &wanted, module.numbers())?;
     let (asked, rest) = values.split_at(step.joints.min(values.len()));
     let (limited, rest) = rest.split_at(step.joints.min(rest.len()));
-    let (theta, unread) = rest.split_at(learns.min(rest.len()));
+    let (correction, unread) = rest.split_at(learns.min(rest.len()));
     let unread = unread.first().cloned().unwrap_or(quote!(0.0));
-    let [asked, limited, theta] = [asked, limited, theta].map(|values| spaced(values.iter().cloned()));
+    let [asked, limited, correction] =
+        [asked, limited, correction].map(|values| spaced(values.iter().cloned()));
     let used = |test: fn(&Node) -> bool| step.code.nodes.iter().any(test);
     let functions: Vec<Ident> = [
         (used(|node| matches!(node, Node::Clamp(..))), "clamp"),
@@ -63,7 +64,7 @@ pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<T
                     asked: #asked,
                     limited: #limited,
                     unread: #unread,
-                    theta: #theta,
+                    correction: #correction,
                 }
             }
 

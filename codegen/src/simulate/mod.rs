@@ -45,6 +45,7 @@ use crate::number::scientific;
 use crate::pipeline::Generation;
 use crate::spec::{LawSpec, OnFaultSpec, ScalarSpec, SimulationSpec};
 use crate::torque::Regressor;
+use crate::trig::Angle;
 
 /// Runge–Kutta steps a control period, where the specification names none.
 const SUBSTEPS: usize = 10;
@@ -183,22 +184,25 @@ fn exact<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Run, Error>
 /// The scenario's own law with the reduced model.
 fn law<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Run, Error> {
     let rig = rig::<N>(scenario, plant)?;
-    let Controlled { model, law, learnt } = Controlled::new(scenario)?;
-    rig.run(model, law, learnt).map_err(|error| refused(scenario, &error))
+    let run = match scenario.scalar {
+        ScalarSpec::F64 => Controlled::<f64, N>::new(scenario)?.run(&rig),
+        ScalarSpec::F32 => Controlled::<f32, N>::new(scenario)?.run(&rig),
+    };
+    run.map_err(|error| refused(scenario, &error))
 }
 
 /// What a controller is made of.
 #[derive(Clone)]
-struct Controlled<'a, const N: usize> {
+struct Controlled<'a, T, const N: usize> {
     /// The emitted model.
     model: GraphModel<'a, N>,
     /// The emitted step.
-    law: StepLaw,
+    law: StepLaw<T>,
     /// Number of parameters that the law learns.
     learnt: usize,
 }
 
-impl<'a, const N: usize> Controlled<'a, N> {
+impl<'a, T: Angle, const N: usize> Controlled<'a, T, N> {
     fn new(scenario: &Scenario<'a>) -> Result<Self, Error> {
         let Scenario { file, arm, design, .. } = *scenario;
         let model = GraphModel::<N>::new(scenario.code, scenario.bounds, arm)?;
@@ -216,8 +220,13 @@ impl<'a, const N: usize> Controlled<'a, N> {
             let problem = format!("are {learnt}; a simulation bears {MOST_LEARNT}");
             return Err(Error::input(file, "control.adaptation.parameters", problem, help));
         }
-        let initial: &[f64] = adaptation.map_or(&[], |adaptation| &adaptation.initial);
-        Ok(Self { model, law: StepLaw::new(&step, initial, scenario.scalar), learnt })
+        Ok(Self { model, law: StepLaw::new(&step, adaptation), learnt })
+    }
+}
+
+impl<T: Angle, const N: usize> Controlled<'_, T, N> {
+    fn run(self, rig: &Rig<N>) -> Result<Run, ConfigError> {
+        rig.run(self.model, self.law, self.learnt)
     }
 }
 

@@ -3,7 +3,7 @@
 use gramforge_runtime::law::{Law, Sample, lyapunov};
 use gramforge_runtime::reference::Reference;
 use gramforge_runtime::simulate::{JointState, RigidPlant, Simulation};
-use gramforge_runtime::{ConfigError, Controller, Gains, Model, Settings};
+use gramforge_runtime::{ConfigError, Controller, Estimate, Gains, Model, Real, Settings};
 use serde::Serialize;
 
 use super::metrics::Metrics;
@@ -27,18 +27,18 @@ pub struct Trace {
 
 /// What a law remembers, as numbers.
 pub(super) trait Memory {
-    fn parameters(&self) -> &[f64];
+    fn parameters(&self) -> impl Iterator<Item = f64>;
 }
 
 impl Memory for () {
-    fn parameters(&self) -> &[f64] {
-        &[]
+    fn parameters(&self) -> impl Iterator<Item = f64> {
+        std::iter::empty()
     }
 }
 
-impl<const P: usize> Memory for [f64; P] {
-    fn parameters(&self) -> &[f64] {
-        self
+impl<T: Real, const P: usize> Memory for Estimate<T, P> {
+    fn parameters(&self) -> impl Iterator<Item = f64> {
+        self.theta().iter().map(|theta| theta.to_f64())
     }
 }
 
@@ -102,7 +102,7 @@ impl<const N: usize> Rig<'_, N> {
         // One instant more than there are periods, so that the trace ends at the end.
         for _ in 0..=self.steps {
             let now = simulation.time();
-            let parameters = controller.law_state().parameters().iter().copied().take(learnt).collect();
+            let parameters = controller.law_state().parameters().take(learnt).collect();
             let Ok(record) = simulation.step(&mut controller, &self.reference) else {
                 diverged_at = Some(now);
                 break;

@@ -2,87 +2,64 @@
 
 use std::array::from_fn;
 
-use gramforge_runtime::Model;
 use gramforge_runtime::law::{Law, Sample};
+use gramforge_runtime::{Estimate, Model};
 
-use super::run::Memory;
-use crate::control::StepGraph;
+use crate::control::{Adaptation, StepGraph};
 use crate::graph::Tape;
-use crate::spec::ScalarSpec;
+use crate::trig::Angle;
 
 /// Most parameters of a law that learns in a simulation.
 pub const MOST_LEARNT: usize = 512;
 
-/// A control step in the form of its graph, interpreted: the numbers of the generated code, bit by bit.
+/// A control step in the form of its graph, interpreted in `T`: the numbers of the generated code, bit by bit.
 #[derive(Clone)]
-pub(super) struct StepLaw {
-    code: Interpreter,
-    learnt: usize,
-    initial: Learnt,
+pub(super) struct StepLaw<T> {
+    /// Outputs: the torques before they are limited, which the loop does, then what the period takes off the parameters.
+    code: Tape<T>,
+    /// Lowest, highest and first θ̂, padded with zeros.
+    low: Padded<T>,
+    high: Padded<T>,
+    initial: Padded<T>,
 }
 
-/// The graph in the number type of the module. Outputs: the torques before they are limited, which the loop does, then the
-/// parameters after the period.
-#[derive(Clone)]
-enum Interpreter {
-    Double(Tape<f64>),
-    Single(Tape<f32>),
-}
+type Padded<T> = [T; MOST_LEARNT];
 
-/// θ̂, padded with zeros.
-#[derive(Clone, Copy)]
-pub(super) struct Learnt([f64; MOST_LEARNT]);
-
-impl Memory for Learnt {
-    fn parameters(&self) -> &[f64] {
-        &self.0
-    }
-}
-
-impl StepLaw {
-    /// The law of `step`, whose parameters start at `initial`: at most [`MOST_LEARNT`].
-    pub(super) fn new(step: &StepGraph, initial: &[f64], scalar: ScalarSpec) -> Self {
+impl<T: Angle> StepLaw<T> {
+    /// The law of `step`, which learns at most [`MOST_LEARNT`] parameters.
+    pub(super) fn new(step: &StepGraph, adaptation: Option<&Adaptation>) -> Self {
         let mut code = step.code.clone();
+        code.outputs.truncate(step.joints + step.parameters);
         code.outputs.splice(..step.joints, step.asked());
+        let of = |list: fn(&Adaptation) -> &Vec<f64>| padded(adaptation.map_or(&[], |all| list(all)));
         Self {
-            code: match scalar {
-                ScalarSpec::F64 => Interpreter::Double(Tape::new(&code)),
-                ScalarSpec::F32 => Interpreter::Single(Tape::new(&code)),
-            },
-            learnt: step.parameters,
-            initial: Learnt(from_fn(|k| initial.get(k).copied().unwrap_or(0.0))),
+            code: Tape::new(&code),
+            low: of(|a| &a.low),
+            high: of(|a| &a.high),
+            initial: of(|a| &a.initial),
         }
     }
 }
 
-impl<M: Model<N, Scalar = f64>, const N: usize> Law<M, N> for StepLaw {
-    type State = Learnt;
+fn padded<T: Angle>(x: &[f64]) -> Padded<T> {
+    from_fn(|k| x.get(k).map_or(T::ZERO, |&x| T::from_f64(x)))
+}
 
-    fn initial_state(&self) -> Learnt {
-        self.initial
+impl<T: Angle, M: Model<N, Scalar = f64>, const N: usize> Law<M, N> for StepLaw<T> {
+    type State = Estimate<T, MOST_LEARNT>;
+
+    fn initial_state(&self) -> Self::State {
+        Estimate::new(self.initial)
     }
 
-    fn torque(&self, _model: &M, state: &mut Learnt, sample: &Sample<f64, N>) -> [f64; N] {
-        let desired = &sample.desired;
-        let desired = [desired.q.as_slice(), &desired.qd, &desired.qdd];
-        let out = match &self.code {
-            Interpreter::Double(code) => code.interpret_step(&sample.q, &sample.qd, desired, &state.0),
-            Interpreter::Single(code) => {
-                let single = |x: &[f64]| -> Vec<f32> { x.iter().map(|&x| x as f32).collect() };
-                let [q_d, qd_d, qdd_d] = desired.map(single);
-                let desired = [q_d.as_slice(), &qd_d, &qdd_d];
-                let theta = single(state.0.get(..self.learnt).unwrap_or(&state.0));
-                let out = code.interpret_step(&single(&sample.q), &single(&sample.qd), desired, &theta);
-                out.into_iter().map(f64::from).collect()
-            }
-        };
-        for (theta, &next) in state.0.iter_mut().zip(out.iter().skip(N).take(self.learnt)) {
-            // NaN is not taken.
-            if next.is_finite() {
-                *theta = next;
-            }
-        }
-        from_fn(|i| out.get(i).copied().unwrap_or(f64::NAN))
+    fn torque(&self, _model: &M, state: &mut Self::State, sample: &Sample<f64, N>) -> [f64; N] {
+        let own = |x: &[f64; N]| x.map(T::from_f64);
+        let desired = [&sample.desired.q, &sample.desired.qd, &sample.desired.qdd].map(own);
+        let desired = desired.each_ref().map(<[T; N]>::as_slice);
+        let out = self.code.interpret_step(&own(&sample.q), &own(&sample.qd), desired, state.theta());
+        let correction = from_fn(|k| out.get(N + k).copied().unwrap_or(T::ZERO));
+        state.correct(&correction, &self.low, &self.high);
+        from_fn(|i| out.get(i).map_or(f64::NAN, |x| x.to_f64()))
     }
 
     // The design was checked when it was made.

@@ -2,7 +2,7 @@
 
 use super::{Law, ReportLaw, Sample, Switching, Tracking};
 use crate::regression::AdaptiveModel;
-use crate::{ConfigError, Real, Requirement};
+use crate::{ConfigError, Estimate, Real, Requirement};
 
 /// Equation (34) with parameters θ̂ that are learnt: θ̂̇ = −Pθθ⁻¹ Yᵀ s, held in a box that is known to contain θ.
 ///
@@ -10,7 +10,7 @@ use crate::{ConfigError, Real, Requirement};
 ///
 /// - θ̂ is projected onto its box, which only lowers V1;
 /// - joints with |s_i| inside the boundary layer teach nothing: what s does there is ripple and noise;
-/// - one Euler step a control period; a step that is not finite is not taken.
+/// - one Euler step a control period, in a sum that loses no small step ([`Estimate`]); one that is not finite is not taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdaptiveLaw<T, const N: usize, const P: usize> {
     /// The remaining terms of (34); its bounds are those with θ at its true value.
@@ -35,52 +35,26 @@ impl<T: Real, const N: usize, const P: usize> AdaptiveLaw<T, N, P> {
             }
         }
     }
-
-    /// Brings what was restored into the box; what is no number becomes the start.
-    fn project(&self, theta: &mut [T; P]) {
-        for (k, theta) in theta.iter_mut().enumerate() {
-            if *theta < self.low[k] {
-                *theta = self.low[k];
-            } else if *theta > self.high[k] {
-                *theta = self.high[k];
-            } else if !theta.is_finite() {
-                *theta = self.initial[k];
-            }
-        }
-    }
-
-    fn advance(&self, theta: &mut [T; P], gradient: &[T; P], period: T) {
-        for (k, theta) in theta.iter_mut().enumerate() {
-            let next = *theta - period * self.rate[k] * gradient[k];
-            // NaN compares false, and θ̂ stays.
-            if next <= self.low[k] {
-                *theta = self.low[k];
-            } else if next >= self.high[k] {
-                *theta = self.high[k];
-            } else if next.is_finite() {
-                *theta = next;
-            }
-        }
-    }
 }
 
 impl<M, T: Real, const N: usize, const P: usize> Law<M, N> for AdaptiveLaw<T, N, P>
 where
     M: AdaptiveModel<N, P, Scalar = T>,
 {
-    /// θ̂.
-    type State = [T; P];
+    type State = Estimate<T, P>;
 
-    fn initial_state(&self) -> [T; P] {
-        self.initial
+    fn initial_state(&self) -> Estimate<T, P> {
+        Estimate::new(self.initial)
     }
 
-    fn torque(&self, model: &M, theta: &mut [T; P], sample: &Sample<T, N>) -> [T; N] {
-        self.project(theta);
+    fn torque(&self, model: &M, estimate: &mut Estimate<T, P>, sample: &Sample<T, N>) -> [T; N] {
+        estimate.project(&self.low, &self.high, &self.initial);
         let tracking = Tracking::new(&self.robust.gains.p12, sample);
         let regression = model.regression(&sample.q, &sample.qd, &tracking.v_r, &tracking.a_r);
-        let torque = self.robust.around(model, &regression.torque(theta), sample, &tracking);
-        self.advance(theta, &regression.gradient(&self.lesson(&tracking.s)), sample.period);
+        let torque = self.robust.around(model, &regression.torque(estimate.theta()), sample, &tracking);
+        let gradient = regression.gradient(&self.lesson(&tracking.s));
+        let correction = core::array::from_fn(|k| sample.period * self.rate[k] * gradient[k]);
+        estimate.correct(&correction, &self.low, &self.high);
         torque
     }
 
@@ -163,11 +137,11 @@ mod tests {
         let mut error = 0.0;
         while simulation.time() < seconds {
             let record = simulation.step(&mut controller, &motion).unwrap();
-            let theta = controller.law_state()[0];
+            let theta = controller.law_state().theta()[0];
             assert!((-0.3..=0.3).contains(&theta));
             error = (record.state.q[0] - record.desired.q[0]).abs();
         }
-        (controller.law_state()[0], error)
+        (controller.law_state().theta()[0], error)
     }
 
     #[test]
@@ -196,15 +170,15 @@ mod tests {
         let mut controller = Controller::new(model, law(Switching::Sign), settings).unwrap();
         controller.step(&[0.5; 2], &[0.0; 2], &crate::Desired::at_rest([0.0; 2])).unwrap();
         let learnt = *controller.law_state();
-        assert!(learnt != [0.0]);
+        assert!(learnt.theta() != &[0.0]);
         controller.reset();
-        assert_eq!(controller.law_state(), &[0.0]);
+        assert_eq!(controller.law_state(), &Estimate::new([0.0]));
         controller.restore(learnt);
         assert_eq!(controller.law_state(), &learnt);
         for (stored, used) in [(9.0, 0.3), (f64::NAN, 0.0)] {
-            controller.restore([stored]);
+            controller.restore(Estimate::new([stored]));
             controller.step(&[0.0; 2], &[0.0; 2], &crate::Desired::at_rest([0.0; 2])).unwrap();
-            assert_eq!(controller.law_state(), &[used]);
+            assert_eq!(controller.law_state().theta(), &[used]);
         }
     }
 }

@@ -19,6 +19,7 @@ use crate::{ConfigError, Requirement};
 
 /// What the arm should be doing at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Desired<T, const N: usize> {
     /// q_d, rad or m.
     pub q: [T; N],

@@ -3,7 +3,7 @@
 use super::ControlStep;
 use crate::reference::Desired;
 use crate::vector::first_not_finite;
-use crate::{Command, Fault, OnFault, Quantity, Real, TorqueController};
+use crate::{Command, Estimate, Fault, OnFault, Quantity, Real, TorqueController};
 
 /// A [`ControlStep`] with the little that must be remembered from one step to the next.
 ///
@@ -11,7 +11,7 @@ use crate::{Command, Fault, OnFault, Quantity, Real, TorqueController};
 /// work: no allocation, no loop whose length depends on data.
 #[derive(Debug)]
 pub struct StepController<S: ControlStep<N, P>, const N: usize, const P: usize = 0> {
-    theta: [S::Scalar; P],
+    estimate: Estimate<S::Scalar, P>,
     last_command: [S::Scalar; N],
     last_position: [S::Scalar; N],
     /// Whether there was a finite position.
@@ -36,7 +36,7 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
     /// The loop before its first step.
     pub const fn new() -> Self {
         Self {
-            theta: S::LEARNING.initial,
+            estimate: Estimate::new(S::LEARNING.initial),
             last_command: [S::Scalar::ZERO; N],
             last_position: [S::Scalar::ZERO; N],
             positioned: false,
@@ -58,7 +58,7 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
         qd: &[S::Scalar; N],
         desired: &Desired<S::Scalar, N>,
     ) -> Result<Command<S::Scalar, N>, Fault<S::Scalar, N>> {
-        let torque = S::step(q, qd, desired, &self.theta);
+        let torque = S::step(q, qd, desired, self.estimate.theta());
         // 0 times a finite number is 0, so one comparison does for all.
         let zero = S::Scalar::ZERO;
         let mut sum = torque.unread * zero;
@@ -70,12 +70,7 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
         if sum != zero {
             return Err(self.fault_of(q, qd, desired, &torque.asked));
         }
-        for k in 0..P {
-            // NaN is not taken.
-            if torque.theta[k].is_finite() {
-                self.theta[k] = torque.theta[k];
-            }
-        }
+        self.estimate.correct(&torque.correction, &S::LEARNING.low, &S::LEARNING.high);
         self.last_command = torque.limited;
         if S::SETTINGS.on_fault == OnFault::Gravity {
             (self.last_position, self.positioned) = (*q, true);
@@ -99,17 +94,14 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
 
     /// θ̂, what the law has learnt so far; empty for a law that does not learn.
     pub fn learnt(&self) -> &[S::Scalar; P] {
-        &self.theta
+        self.estimate.theta()
     }
 
     /// Puts back what was learnt before, such as from a storage that outlives the power. What is outside its box is brought
     /// into it; what is no number becomes the start.
     pub fn restore(&mut self, theta: [S::Scalar; P]) {
-        let learning = S::LEARNING;
-        for (k, (own, theta)) in self.theta.iter_mut().zip(theta).enumerate() {
-            let inside = super::clamp(theta, learning.low[k], learning.high[k]);
-            *own = if inside.is_finite() { inside } else { learning.initial[k] };
-        }
+        self.estimate = Estimate::new(theta);
+        self.estimate.project(&S::LEARNING.low, &S::LEARNING.high, &S::LEARNING.initial);
     }
 
     /// Forgets what was learnt and commanded, as after [`StepController::new`].
@@ -150,7 +142,7 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> TorqueController<N> f
     }
 
     fn learnt(&self) -> &[S::Scalar; P] {
-        &self.theta
+        self.estimate.theta()
     }
 
     #[inline]

@@ -66,8 +66,8 @@ pub struct StepTorque<T, const N: usize, const P: usize = 0> {
     /// The sum of the inputs that no torque depends on; 0 if there are none. An infinite or NaN input makes this sum or a
     /// torque that is asked infinite or NaN, so one look at these is enough.
     pub unread: T,
-    /// The parameters after this period, inside their box or NaN.
-    pub theta: [T; P],
+    /// What this period takes off the parameters, in their units: T Pθθ⁻¹ Yᵀ s for a period T.
+    pub correction: [T; P],
 }
 
 /// `x`, no less than `low` and no more than `high`; NaN stays NaN.

@@ -24,7 +24,7 @@ impl ControlStep<2, 1> for Simple {
             asked,
             limited: [clamp(asked[0], -5.0, 5.0), asked[1]],
             unread: unread + desired.qdd[0],
-            theta: [clamp(theta[0] - qd[0], -1.0, 1.0)],
+            correction: [qd[0]],
         }
     }
 
@@ -87,6 +87,18 @@ fn what_is_learnt_stays_in_its_box() {
         controller.restore([put]);
         assert_eq!(controller.learnt(), &[got]);
     }
+    let learn = |controller: &mut Loop, times: usize| {
+        for _ in 0..times {
+            controller.step(&[0.0; 2], &[-2e-17, 0.0], &STILL).unwrap();
+        }
+        *controller.learnt()
+    };
+    // Half an ulp of 0.5 is 5.6e-17.
+    controller.restore([0.5]);
+    assert_eq!(learn(&mut controller, 2), [0.5]);
+    controller.restore([0.5]);
+    assert_eq!(learn(&mut controller, 2), [0.5], "what was below the last digit is forgotten");
+    assert_eq!(learn(&mut controller, 1), [0.5 + f64::EPSILON / 2.0]);
     controller.reset();
     assert_eq!((controller.learnt(), controller.safe_command()), (&[0.5], [0.0; 2]));
 }

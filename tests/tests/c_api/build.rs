@@ -13,8 +13,6 @@ use serde_json::{Value, json};
 pub struct Library {
     folder: PathBuf,
     archives: Vec<PathBuf>,
-    /// The modules.
-    pub outputs: Vec<Output>,
 }
 
 /// A compiler and the language that it takes a program for.
@@ -82,8 +80,8 @@ impl Library {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("c_api");
         let _ = fs::remove_dir_all(folder.join("out"));
         patch(&folder);
-        let outputs = generate(specs, &folder.join("specs"), &folder.join("out"));
-        let mut library = Self { folder, archives: Vec::new(), outputs };
+        generate(specs, &folder.join("specs"), &folder.join("out"));
+        let mut library = Self { folder, archives: Vec::new() };
         for spec in specs {
             let name = spec["name"].as_str().expect("a name");
             let shim = library.file(&format!("{name}_c"));

@@ -4,13 +4,13 @@ mod build;
 mod calls;
 mod guide;
 
+use std::fmt::Write as _;
 use std::sync::LazyLock;
 
 use gramforge::Config;
 use gramforge_generated::arm3_adaptive;
-use gramforge_runtime::StepController;
+use gramforge_runtime::{StepController, TickReference};
 use gramforge_tests::random::Random;
-use serde_json::json;
 
 use build::{Language, Library, generate, with_c_api};
 use calls::{Answering, compare};
@@ -21,13 +21,15 @@ mod step_exact {
     include!(concat!(env!("OUT_DIR"), "/step_exact.rs"));
 }
 
+#[allow(dead_code, reason = "a test does not use the whole module")]
+#[rustfmt::skip]
+mod single_adaptive {
+    include!(concat!(env!("OUT_DIR"), "/single_adaptive.rs"));
+}
+
 /// The modules that the programs use, built once.
-static LIBRARY: LazyLock<Library> = LazyLock::new(|| {
-    let mut single = with_c_api("step_exact");
-    single["name"] = json!("step_single");
-    single["emit"]["scalar"] = json!("f32");
-    Library::new(&[with_c_api("arm3_adaptive"), with_c_api("step_exact"), single])
-});
+static LIBRARY: LazyLock<Library> =
+    LazyLock::new(|| Library::new(&["arm3_adaptive", "step_exact", "single_adaptive"].map(with_c_api)));
 
 #[test]
 fn torques_have_the_bits_of_the_module_in_c_and_in_cpp() {
@@ -42,18 +44,23 @@ fn torques_have_the_bits_of_the_module_in_c_and_in_cpp() {
 }
 
 #[test]
-fn a_module_in_f32_has_the_bits_of_its_graph() {
-    let step = LIBRARY.outputs[2].generation.step().expect("a controller");
+fn a_module_in_f32_has_the_bits_of_its_module_in_rust() {
+    let mut controller = single_adaptive::controller();
     let mut random = Random::new(23);
     let (mut input, mut wanted) = (String::new(), Vec::new());
-    for _ in 0..1000 {
-        let x: [f32; 15] = random.array(1.5).map(|x| x as f32);
-        let part = |k: usize| &x[3 * k..3 * k + 3];
-        let out = step.code.interpret_step(part(0), part(1), [part(2), part(3), part(4)], &[]);
-        let bits = |x: &[f32]| x.iter().map(|x| format!(" {:x}", x.to_bits())).collect::<String>();
-        input += &format!("{}\n", bits(&x));
-        wanted.push(format!("0{}", bits(&out[..3])));
+    let bits = |x: &[f32]| x.iter().map(|x| format!(" {:x}", x.to_bits())).collect::<String>();
+    // The motion takes 5000 periods.
+    for tick in (0..6000).step_by(7).chain([4999, 5000, 5001, u32::MAX]) {
+        let [e, ed] = [0.3, 1.0].map(|most| random.array::<3>(most).map(|x| x as f32));
+        let desired = single_adaptive::REFERENCE.at(tick);
+        let q: [f32; 3] = std::array::from_fn(|i| e[i] + desired.q[i]);
+        let qd: [f32; 3] = std::array::from_fn(|i| ed[i] + desired.qd[i]);
+        let torque = controller.step(&q, &qd, &desired).expect("no fault").torque;
+        writeln!(input, "{tick}{}{}", bits(&e), bits(&ed)).expect("text");
+        let motion = [desired.q, desired.qd, desired.qdd].concat();
+        wanted.push(format!("0{} 0{}{}", bits(&motion), bits(&torque), bits(controller.learnt())));
     }
+    assert_ne!(controller.learnt(), single_adaptive::controller().learnt(), "it learns");
     for language in Language::installed() {
         assert_eq!(LIBRARY.compile("single.c", language).answers(&input), wanted, "{language:?}");
     }

@@ -20,5 +20,6 @@ mod double;
 mod fused;
 mod generated_code;
 mod single;
+mod single_loop;
 mod steps;
 mod trig;

@@ -231,7 +231,7 @@ fn same_bits<S, const N: usize, const P: usize>(
         }
         let Instant { q, qd, desired, theta } = &state;
         let compiled = S::step(q, qd, desired, theta);
-        let compiled = compiled.limited.iter().chain(&compiled.theta).map(|x| x.to_bits());
+        let compiled = compiled.limited.iter().chain(&compiled.correction).map(|x| x.to_bits());
         let interpreted = step.code.interpret_step(q, qd, [&desired.q, &desired.qd, &desired.qdd], theta);
         let interpreted = interpreted.iter().take(N + P).map(|x| x.to_bits());
         assert!(compiled.eq(interpreted), "{name} at {q:?}");

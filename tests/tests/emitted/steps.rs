@@ -11,7 +11,8 @@ use gramforge_generated::{
 };
 use gramforge_runtime::law::{Law, Sample};
 use gramforge_runtime::reference::Reference;
-use gramforge_runtime::{ControlStep, Controller, Desired, Model, StepController};
+use gramforge_runtime::step::Learning;
+use gramforge_runtime::{ControlStep, Controller, Desired, Estimate, Model, Real, StepController};
 use gramforge_tests::random::Random;
 use gramforge_tests::tracked::Tracked;
 use gramforge_tests::{edited, generation};
@@ -94,7 +95,7 @@ fn same_bits<S, L, const N: usize, const P: usize>(
         let theta = theta::<P>(&mut random, &made);
         let compiled = S::step(&q, &qd, &desired, &theta);
         let unread = (step.code.outputs.len() > N + P).then_some(compiled.unread);
-        let compiled = compiled.limited.iter().chain(&compiled.theta).chain(&unread);
+        let compiled = compiled.limited.iter().chain(&compiled.correction).chain(&unread);
         let compiled: Vec<u64> = compiled.map(|x| x.to_bits()).collect();
         let inputs = [desired.q.as_slice(), &desired.qd, &desired.qdd];
         let interpreted = step.code.interpret_step(&q, &qd, inputs, &theta);
@@ -106,6 +107,18 @@ fn same_bits<S, L, const N: usize, const P: usize>(
 #[test]
 fn a_step_has_the_bits_of_its_graph() {
     all!(same_bits, 1000);
+}
+
+/// The parameters after a period.
+fn corrected<T: Real, const P: usize>(
+    theta: &[f64; P],
+    correction: &[T; P],
+    learning: &Learning<f64, P>,
+) -> [T; P] {
+    let [theta, low, high] = [theta, &learning.low, &learning.high].map(|x| x.map(T::from_f64));
+    let mut estimate = Estimate::new(theta);
+    estimate.correct(correction, &low, &high);
+    *estimate.theta()
 }
 
 /// The torque of law and model as the runtime computes it differs by no more than rounding can do on both sides.
@@ -139,11 +152,13 @@ fn same_law<S, L, const N: usize, const P: usize>(
         let mut state = lifted.initial_state();
         state.set(&theta);
         let torque = lifted.torque(&model, &mut state, &sample);
-        let own = tracked_step(&made, step, &q, &qd, &desired, &theta);
+        let own = tracked_step(step, &q, &qd, &desired, &theta);
+        let own = own.asked.into_iter().chain(corrected(&theta, &own.correction, &S::LEARNING));
         let compiled = S::step(&q, &qd, &desired, &theta);
         let generic = torque.iter().copied().chain(state.get());
-        let asked = compiled.asked.iter().chain(&compiled.theta);
-        for ((generic, own), &compiled) in generic.zip(&own).zip(asked) {
+        let compiled =
+            compiled.asked.into_iter().chain(corrected(&theta, &compiled.correction, &S::LEARNING));
+        for ((generic, own), compiled) in generic.zip(own).zip(compiled) {
             assert_eq!(own.value.to_bits(), compiled.to_bits(), "{name}: the oracle walks the same graph");
             let (off, allowed) = ((generic.value - compiled).abs(), generic.error + own.error);
             assert!(off <= allowed, "{name}: {} {compiled}, {off:e} above {allowed:e}", generic.value);
@@ -234,7 +249,7 @@ fn a_controller_can_be_a_static_and_is_small() {
     let at = puma560_exact::REFERENCE.at(0.1);
     assert!(controller.step(&at.q, &at.qd, &at).is_ok());
     assert_eq!(size_of_val(&READY), (2 * 6 + 1) * 8);
-    assert_eq!(size_of_val(&arm3_adaptive::controller()), (2 * 3 + 1 + 1) * 8);
+    assert_eq!(size_of_val(&arm3_adaptive::controller()), (2 * 3 + 2 + 1) * 8);
 }
 
 /// What a module says of its step is what stands in it.
@@ -242,6 +257,10 @@ fn a_controller_can_be_a_static_and_is_small() {
 fn published_counts_are_those_of_the_text() {
     for (name, counts) in [
         ("arm3_xi2", [arm3_xi2::STEP_MULTIPLICATIONS, arm3_xi2::STEP_ADDITIONS, arm3_xi2::STEP_CLAMPS]),
+        (
+            "arm3_adaptive",
+            [arm3_adaptive::STEP_MULTIPLICATIONS, arm3_adaptive::STEP_ADDITIONS, arm3_adaptive::STEP_CLAMPS],
+        ),
         (
             "puma560_exact",
             [puma560_exact::STEP_MULTIPLICATIONS, puma560_exact::STEP_ADDITIONS, puma560_exact::STEP_CLAMPS],
@@ -265,7 +284,10 @@ fn published_counts_are_those_of_the_text() {
                 && !step[..*at].ends_with(|c: char| c.is_ascii_alphanumeric())
         });
         let additions = count(" + ") + count(" - ") + count(".abs()") + negated.count();
-        assert_eq!([count(" * "), additions, count("clamp(") + count("select(")], counts, "{name}");
+        // The loop takes the corrections off what is learnt.
+        let learnt = generation(name).step().expect("a controller").parameters;
+        let chosen = count("clamp(") + count("select(") + learnt;
+        assert_eq!([count(" * "), additions + 4 * learnt, chosen], counts, "{name}");
     }
 }
 

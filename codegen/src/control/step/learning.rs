@@ -1,10 +1,10 @@
-//! What a law learns in one period: one Euler step of θ̂̇ = −Pθθ⁻¹ Yᵀ s inside its box.
+//! What a law learns in one period: one Euler step of θ̂̇ = −Pθθ⁻¹ Yᵀ s. The loop takes it off θ̂ and keeps θ̂ inside its box.
 
 use super::{StepParts, Tracking};
-use crate::graph::{Builder, Expr, Variable};
+use crate::graph::{Builder, Expr};
 
 impl StepParts<'_> {
-    /// The parameters after the period; nothing for a law that does not learn.
+    /// What the period takes off the parameters; nothing for a law that does not learn.
     pub(super) fn learnt<'g>(
         &self,
         builder: &'g Builder,
@@ -23,13 +23,11 @@ impl StepParts<'_> {
                 }
             })
             .collect();
-        let next = |(k, column): (usize, &Vec<Expr<'g>>)| {
+        let correction = |(k, column): (usize, &Vec<Expr<'g>>)| {
             let gradient = column.iter().zip(&lesson).fold(zero, |sum, (&y, &s)| sum + y * s);
             let rate = builder.constant(self.period * adaptation.rate[k]);
-            let theta = builder.input(Variable::Theta(k)) - rate * gradient;
-            let [low, high] = [adaptation.low[k], adaptation.high[k]].map(|x| builder.constant(x));
-            theta.clamp(low, high).named(&format!("theta{}", k + 1), true)
+            (rate * gradient).named(&format!("correction{}", k + 1), true)
         };
-        columns.iter().enumerate().map(next).collect()
+        columns.iter().enumerate().map(correction).collect()
     }
 }

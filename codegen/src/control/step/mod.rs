@@ -64,7 +64,7 @@ pub struct StepParts<'a> {
 
 /// A control step as a graph.
 ///
-/// Holds: the outputs are the torques within their limits by joint, then the parameters after the period, then the sum of
+/// Holds: the outputs are the torques within their limits by joint, then what the period takes off the parameters, then the sum of
 /// the inputs that no torque depends on, if there are any. An infinite or NaN input makes that sum or some torque, before it is
 /// limited, infinite or NaN.
 #[derive(Clone, Debug, PartialEq)]
@@ -177,9 +177,11 @@ impl StepParts<'_> {
 }
 
 impl StepGraph {
-    /// What one step computes.
+    /// What one step computes, with the sums of a law that learns: the loop's [`gramforge_runtime::Estimate::correct`] takes four
+    /// additions and a clamp for each parameter.
     pub fn operations(&self) -> Operations {
-        self.code.operations()
+        let graph = self.code.operations();
+        Operations { add: graph.add + 4 * self.parameters, other: graph.other + self.parameters, ..graph }
     }
 
     /// The torques before they are limited.

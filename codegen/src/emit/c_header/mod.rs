@@ -88,9 +88,10 @@ impl Instant {
 }
 
 impl Interface<'_> {
-    /// Words of a controller: its mark, θ̂, the last command, the last position, and whether there was one.
+    /// Words of a controller: its mark, θ̂ and what is below its last digit, the last command, the last position, and whether there
+    /// was one.
     fn words(&self) -> usize {
-        self.parameters + 2 * self.joints + 2
+        2 * self.parameters + 2 * self.joints + 2
     }
 
     /// `text` with the words that every file has in common.

@@ -58,7 +58,7 @@ pub(super) struct Parts<'a, const N: usize> {
     /// The arm as specified.
     pub arm: &'a FastArm<N>,
     /// The law in f64, with a boundary layer.
-    pub law: &'a StepLaw,
+    pub law: &'a StepLaw<f64>,
     pub reference: &'a MotionReference<'a, N>,
     pub period: f64,
     /// Control periods of the run.

@@ -39,6 +39,7 @@ use crate::numerics::linalg::inverse;
 use crate::parallel::Parallelize;
 use crate::progress::{Progress, Stage};
 use crate::spec::{ScalarSpec, SimulationSpec};
+use crate::trig::Angle;
 use gramforge_runtime::Model;
 use gramforge_runtime::reference::Reference;
 
@@ -70,7 +71,10 @@ pub fn monte_carlo(
     macro_rules! dispatch {
         ($($n:literal)*) => {
             match scenario.arm.dof() {
-                $($n => Runs::<$n>::new(scenario, request)?.all(scenario, request, progress),)*
+                $($n => match scenario.scalar {
+                    ScalarSpec::F64 => Runs::<f64, $n>::new(scenario, request)?.all(scenario, request, progress),
+                    ScalarSpec::F32 => Runs::<f32, $n>::new(scenario, request)?.all(scenario, request, progress),
+                },)*
                 n => Err(Error::Internal(format!("an arm of {n} joints passed its check"))),
             }
         };
@@ -79,9 +83,9 @@ pub fn monte_carlo(
 }
 
 /// What all runs share.
-struct Runs<'a, const N: usize> {
+struct Runs<'a, T, const N: usize> {
     rig: Rig<'a, N>,
-    controlled: Controlled<'a, N>,
+    controlled: Controlled<'a, T, N>,
     /// The arm as specified.
     arm: FastArm<N>,
     planner: Planner<'a, N>,
@@ -90,7 +94,7 @@ struct Runs<'a, const N: usize> {
     instants: Instants,
 }
 
-impl<'a, const N: usize> Runs<'a, N> {
+impl<'a, T: Angle + Send + Sync, const N: usize> Runs<'a, T, N> {
     fn new(scenario: &Scenario<'a>, request: &'a MonteCarloRequest) -> Result<Self, Error> {
         let rig = rig::<N>(scenario, scenario.plant)?;
         let controlled = Controlled::new(scenario)?;
@@ -100,7 +104,7 @@ impl<'a, const N: usize> Runs<'a, N> {
         let (settle, end) = (instant(request.settle), instant(scenario.motion.duration()));
         let design = smooth(scenario, &rig, &arm);
         let smooth =
-            Controlled::<N>::new(&Scenario { design: &design, scalar: ScalarSpec::F64, ..*scenario })?;
+            Controlled::<f64, N>::new(&Scenario { design: &design, scalar: ScalarSpec::F64, ..*scenario })?;
         let frozen = FrozenLoop::new(&Parts {
             arm: &arm,
             law: &smooth.law,

@@ -124,7 +124,7 @@ fn a_push_makes_the_models_error_its_bound_and_no_more() {
     let generation = three_link(|_| {});
     let scenario = Scenario::of(&generation).unwrap();
     let request = request(&generation, 1);
-    let runs = Runs::<3>::new(&scenario, &request).unwrap();
+    let runs = Runs::<f64, 3>::new(&scenario, &request).unwrap();
     assert!(runs.bound.iter().all(|bound| *bound > 0.1), "{:?}", runs.bound);
     let at_state = request.model_error.at_state.as_ref();
     let push = |bound, at_state, sides: &[i8; 3], time: f64, [q_e, qd_e]: [[f64; 3]; 2]| {
@@ -207,7 +207,7 @@ fn attacks_reach_what_the_frozen_loop_says() {
     let scenario = Scenario::of(&generation).unwrap();
     let mut request = request(&generation, 1);
     request.model_error = ModelErrorBound { torque: vec![0.2; 3], at_state: None, against: Against::Exact };
-    let runs = Runs::<3>::new(&scenario, &request).unwrap();
+    let runs = Runs::<f64, 3>::new(&scenario, &request).unwrap();
     let push =
         Push { bound: [0.2; 3], at_state: None, exact: None, code: &runs.emitted, p12: &runs.rig.gains.p12 };
     let after = |plan: &Plan<3>, step: usize| {

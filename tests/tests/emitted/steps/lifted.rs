@@ -7,7 +7,7 @@ use gramforge::internals::trig::Angle;
 use gramforge_runtime::law::{
     AdaptiveLaw, ConstantGainLaw, CoriolisTerm, ExactLaw, Gains, ReportLaw, Switching, TightLaw,
 };
-use gramforge_runtime::{AdaptiveModel, Bounds, Desired, Model, Real, Regression};
+use gramforge_runtime::{AdaptiveModel, Bounds, Desired, Estimate, Model, Real, Regression};
 use gramforge_tests::array;
 use gramforge_tests::tracked::Tracked;
 
@@ -110,12 +110,12 @@ impl Learnt<0> for () {
     }
 }
 
-impl<const P: usize> Learnt<P> for [Tracked; P] {
+impl<const P: usize> Learnt<P> for Estimate<Tracked, P> {
     fn set(&mut self, theta: &[f64; P]) {
-        *self = vector(theta);
+        *self = Self::new(vector(theta));
     }
     fn get(&self) -> Vec<Tracked> {
-        self.to_vec()
+        self.theta().to_vec()
     }
 }
 
@@ -167,15 +167,22 @@ fn values(
     all
 }
 
-/// The emitted step: torques before they are limited, then the parameters.
+/// What the emitted step gives.
+pub struct TrackedStep<const N: usize, const P: usize> {
+    /// The torques before they are limited.
+    pub asked: [Tracked; N],
+    /// What the period takes off the parameters.
+    pub correction: [Tracked; P],
+}
+
+/// The emitted step.
 pub fn tracked_step<const N: usize, const P: usize>(
-    _made: &Generation,
     step: &StepGraph,
     q: &[f64; N],
     qd: &[f64; N],
     desired: &Desired<f64, N>,
     theta: &[f64; P],
-) -> Vec<Tracked> {
+) -> TrackedStep<N, P> {
     let read = |variable| {
         Tracked::exact(match variable {
             Variable::Q(j) => q[j],
@@ -189,7 +196,10 @@ pub fn tracked_step<const N: usize, const P: usize>(
     };
     let all = values(&step.code, q, read, Tracked::rounded);
     let asked = step.asked();
-    asked.iter().chain(&step.code.outputs[step.joints..step.joints + P]).map(|&id| all[id]).collect()
+    TrackedStep {
+        asked: std::array::from_fn(|i| all[asked[i]]),
+        correction: std::array::from_fn(|k| all[step.code.outputs[N + k]]),
+    }
 }
 
 /// The model of a generation: its graph, its bounds.
