@@ -214,6 +214,16 @@ impl ErrorSet {
 }
 
 impl Image {
+    /// Adds `parts` to the shared generator `m`, or to the centre where it is `None`.
+    pub(super) fn add(&mut self, m: Option<usize>, parts: &[f64]) {
+        let at = m.map_or(0, |m| m + 1);
+        for (row, part) in self.rows.iter_mut().zip(parts) {
+            if let Some(place) = row.get_mut(at) {
+                *place += part;
+            }
+        }
+    }
+
     /// Bound on each component.
     pub(super) fn sizes(&self) -> Vec<f64> {
         let size = |(row, boxed): (&Vec<f64>, &f64)| UP * (row.iter().map(|x| x.abs()).sum::<f64>() + boxed);

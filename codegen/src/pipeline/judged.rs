@@ -3,7 +3,7 @@
 use super::Means;
 use super::certified::Certified;
 use super::designed::with_problem;
-use crate::bounds::{Effort, ModelError, Rates};
+use crate::bounds::{Bounds, Effort, ModelError, Rates};
 use crate::check::{Control, InitialError};
 use crate::control::{Design, LoopErrors, SingleRounding, StepRounding, loop_rounding, room};
 use crate::error::Error;
@@ -95,13 +95,23 @@ pub(super) struct Judge<'a> {
     certified: &'a Certified,
     design: &'a Design,
     rounding: &'a StepRounding,
-    /// The model of the arm as specified.
+    /// The model of the arm as specified, and bounds on what the emitted one leaves out of it.
     own: Lagrangian,
+    bounds: Bounds,
 }
 
 impl<'a> Judge<'a> {
     pub(super) fn new(certified: &'a Certified, design: &'a Design, rounding: &'a StepRounding) -> Self {
-        Self { certified, design, rounding, own: own_model(&certified.proved.lagrangian) }
+        let Certified { checked, proved, .. } = certified;
+        let own = own_model(&proved.lagrangian);
+        // What is uncertain counts number by number: the bounds of the family would count it twice.
+        let bounds = match proved.model.reduced.is_exact() && !checked.built.uncertain.is_empty() {
+            true => {
+                ModelError { lagrangian: &own, ..certified.error() }.bounds(&Effort::default(), &Silent).1
+            }
+            false => proved.bounds.clone(),
+        };
+        Self { certified, design, rounding, own, bounds }
     }
 
     /// Its errors, or why nothing is proved of them.
@@ -140,9 +150,33 @@ impl<'a> Judge<'a> {
             bounds: &self.certified.proved.bounds,
             initial: [&initial.position, &initial.velocity],
             settle: control.settle,
-            wrong: &|errors| wrong(self.certified, &error, design, self.rounding, errors),
+            wrong: &|errors| self.wrong(&error, design, errors),
         }
         .judge()
+    }
+
+    /// What the emitted step is wrong by against the arm as specified.
+    fn wrong(&self, error: &ModelError, design: &Design, errors: &LoopErrors) -> Wrong {
+        let Self { certified, rounding: found, bounds, .. } = self;
+        let (checked, proved) = (&certified.checked, &certified.proved);
+        let model = error.torque_error(&proved.certificates, bounds, &errors.rates);
+        let n = model.len();
+        let single = (checked.loaded.spec.emit.scalar == ScalarSpec::F32).then(|| SingleRounding {
+            step: found.torque.clone(),
+            sign: found.sign,
+            reference: found
+                .reference
+                .as_ref()
+                .map_or_else(|| [(); 3].map(|()| vec![0.0; n]), |r| r.1.clone()),
+        });
+        let gain = most_gain(certified, design, &errors.rates, &errors.s);
+        let Some(control) = &checked.control else { return Wrong { torque: model, s: vec![0.0; n] } };
+        let means = Means { effort: &Effort::default(), progress: &Silent, cache: None };
+        let [rounded, s] = with_problem(certified, control, means, single.as_ref(), |problem| {
+            loop_rounding(problem, design, errors, &gain)
+        });
+        let torque = model.iter().zip(rounded).map(|(model, rounded)| (model + rounded).next_up()).collect();
+        Wrong { torque, s }
     }
 }
 
@@ -150,31 +184,6 @@ impl<'a> Judge<'a> {
 fn own_model(lagrangian: &Lagrangian) -> Lagrangian {
     let ranges = vec![[0.0; 2]; lagrangian.ranges.len()];
     Lagrangian { ranges, ..lagrangian.clone() }
-}
-
-fn wrong(
-    certified: &Certified,
-    error: &ModelError,
-    design: &Design,
-    found: &StepRounding,
-    errors: &LoopErrors,
-) -> Wrong {
-    let (checked, proved) = (&certified.checked, &certified.proved);
-    let model = error.torque_error(&proved.certificates, &proved.bounds, &errors.rates);
-    let n = model.len();
-    let single = (checked.loaded.spec.emit.scalar == ScalarSpec::F32).then(|| SingleRounding {
-        step: found.torque.clone(),
-        sign: found.sign,
-        reference: found.reference.as_ref().map_or_else(|| [(); 3].map(|()| vec![0.0; n]), |r| r.1.clone()),
-    });
-    let gain = most_gain(certified, design, &errors.rates, &errors.s);
-    let Some(control) = &checked.control else { return Wrong { torque: model, s: vec![0.0; n] } };
-    let means = Means { effort: &Effort::default(), progress: &Silent, cache: None };
-    let [rounded, s] = with_problem(certified, control, means, single.as_ref(), |problem| {
-        loop_rounding(problem, design, errors, &gain)
-    });
-    let torque = model.iter().zip(rounded).map(|(model, rounded)| (model + rounded).next_up()).collect();
-    Wrong { torque, s }
 }
 
 /// More than any switching gain of `design`, by joint, N·m or N.

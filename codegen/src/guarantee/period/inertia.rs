@@ -2,6 +2,7 @@
 
 use super::Stop;
 use super::load::{Load, Within};
+use super::moved::of_numbers;
 use super::numbers::{ROUNDED, UP, norm};
 use super::sample::Sample;
 use crate::numerics::linalg::weighed;
@@ -43,9 +44,11 @@ impl Sample<'_> {
         }
         let column = |i: usize| -> Vec<f64> { (0..n).map(|k| local.w[k][i]).collect() };
         let columns: Vec<Vec<f64>> = (0..n).map(column).collect();
-        let others: Vec<f64> = columns.iter().map(|column| weighed(column, &load.most)).collect();
+        let others: Vec<f64> = columns.iter().map(|column| weighed(column, &load.others)).collect();
         let others = norm(&others);
-        let asked: Vec<f64> = self.control.iter().map(|row| weighed(row, &self.x)).collect();
+        let numbers = (0..n).map(|i| of_numbers(problem, local, i));
+        let asked: Vec<f64> =
+            self.control.iter().zip(numbers).map(|(row, number)| weighed(row, &self.x) + number).collect();
         let asked = norm(&columns.iter().map(|column| weighed(column, &asked)).collect::<Vec<f64>>());
         let beyond: Vec<f64> = (0..n).map(|i| self.beyond(i, away, *lambda)).collect();
         let first = |i: usize| {

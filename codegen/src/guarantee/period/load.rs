@@ -13,6 +13,8 @@ pub(super) struct Load {
     pub(super) mean: Vec<f64>,
     /// Bound on it at any time, and on the part of it that changes.
     pub(super) most: Vec<f64>,
+    /// The same without what the uncertain numbers do on the desired motion.
+    pub(super) others: Vec<f64>,
     pub(super) changing: Vec<f64>,
     /// Known to be there for the whole period: the middle of Coulomb friction.
     pub(super) middle: Vec<f64>,
@@ -56,6 +58,7 @@ impl Sample<'_> {
         let mut load = Load {
             mean: Vec::with_capacity(n),
             most: Vec::with_capacity(n),
+            others: Vec::with_capacity(n),
             changing: Vec::with_capacity(n),
             middle: Vec::with_capacity(n),
         };
@@ -79,7 +82,9 @@ impl Sample<'_> {
             let lagged = t * local.lag.rate[i].magnitude();
             let middle = self.fed[i] - 0.5 * (low + high);
             load.mean.push(UP * (self.wrong[i] + half + mean + ends(local.lag.end[i])));
-            load.most.push(UP * (self.wrong[i] + half + most + lagged + numbers + middle.abs()));
+            let others = self.wrong[i] + half + most + lagged + middle.abs();
+            load.others.push(UP * others);
+            load.most.push(UP * (others + numbers));
             load.changing.push(UP * (2.0 * half + most));
             load.middle.push(middle);
         }

@@ -19,7 +19,7 @@ pub(super) struct Sample<'a> {
     away: Vec<f64>,
     /// u = `control` x, with the switching term as a line.
     pub(super) control: Vec<Vec<f64>>,
-    /// D⁻¹u of the start.
+    /// D⁻¹ of the start times u and what the uncertain numbers do on the desired motion: the two nearly cancel at rest.
     pub(super) pushed: Image,
     pub(super) pushed_size: Vec<f64>,
     /// Torque that is wrong and held for the period.
@@ -43,7 +43,7 @@ impl<'a> Sample<'a> {
         }
         let (line, off_line) = switched(problem, local, &x, &s);
         let control = control(problem, local, &line);
-        let pushed = set.image(&product(&local.inverse, &control));
+        let pushed = pushed(problem, local, set.image(&product(&local.inverse, &control)));
         let coriolis = &local.arm.coriolis;
         let turned =
             |i: usize| -> f64 { (0..n).map(|j| coriolis.change(i * n + j, &away, lambda) * s[j]).sum() };
@@ -110,4 +110,18 @@ pub(super) fn control(problem: &Problem, local: &Local, line: &[f64]) -> Vec<Vec
         row
     };
     (0..n).map(row).collect()
+}
+
+/// `image` of u with what the uncertain numbers do on the desired motion.
+fn pushed(problem: &Problem, local: &Local, mut image: Image) -> Image {
+    let along = |torque: &[f64], factor: f64| -> Vec<f64> {
+        let row = |row: &Vec<f64>| factor * row.iter().zip(torque).map(|(m, x)| m * x).sum::<f64>();
+        local.inverse.iter().map(row).collect()
+    };
+    for (m, (number, added)) in problem.numbers.iter().zip(&local.added).enumerate() {
+        let torque = &added.enclosure.torque.centre;
+        image.add(Some(m), &along(torque, -number.half));
+        image.add(None, &along(torque, -number.middle));
+    }
+    image
 }
