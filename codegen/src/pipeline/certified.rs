@@ -1,5 +1,7 @@
 //! Stage 5: what the model leaves out, proved.
 
+use std::sync::{Arc, Mutex};
+
 use serde::{Deserialize, Serialize};
 
 use super::Means;
@@ -7,7 +9,7 @@ use super::expanded::Expanded;
 use super::modelled::{Modelled, overflow};
 use super::sampled::Sampled;
 use super::setting::Setting;
-use crate::bounds::{Bounds, Certificate, ModelError, Torque};
+use crate::bounds::{Bounds, Certificate, ModelError, Rates, Torque};
 use crate::check::Checked;
 use crate::error::{Diagnostics, Error};
 use crate::graph::Graph;
@@ -28,6 +30,8 @@ pub(super) struct Certified {
     pub setting: Setting,
     /// The model and what is proved of it.
     pub proved: Proved,
+    /// Torque errors of the model of the arm as specified, by the rates that were asked for: each takes seconds.
+    pub known: Arc<Mutex<Vec<(Rates, Vec<f64>)>>>,
 }
 
 /// A model and what is proved of it: what took the time, and what gains do not change.
@@ -93,7 +97,7 @@ impl Certified {
             bounds,
             torque,
         };
-        Ok(Self { checked, setting, proved })
+        Ok(Self { checked, setting, proved, known: Arc::default() })
     }
 
     /// What an earlier run has proved of the same specification, but for its gains.
@@ -103,7 +107,7 @@ impl Certified {
         for code in learnt.into_iter().chain([&mut proved.model.code]) {
             code.sines = setting.sines.clone();
         }
-        Self { setting, proved, checked }
+        Self { setting, proved, checked, known: Arc::default() }
     }
 
     /// Whether the specification leaves the choice of the model open and a reduced one was chosen.

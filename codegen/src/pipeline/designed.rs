@@ -115,7 +115,7 @@ impl Designed {
 
     /// Whether the step of the exact model is known only once its controller is designed: it has bounds of its own.
     pub fn needs_twin(&self) -> bool {
-        let Certified { checked, setting, proved } = &self.certified;
+        let Certified { checked, setting, proved, .. } = &self.certified;
         let bounded =
             !checked.built.uncertainty.is_empty() || !setting.sines.rounds() || setting.angles.is_some();
         self.exact_step.is_some() && !proved.model.reduced.is_exact() && bounded
