@@ -10,6 +10,7 @@ mod limits;
 mod modelled;
 mod proved;
 mod replaced;
+mod requested;
 mod sampled;
 mod setting;
 mod step_rounding;

@@ -101,7 +101,7 @@ pub(super) fn tune(stage: &Stage, request: &GainRequest) -> Result<Tuning, Error
 }
 
 /// What no gains remove.
-fn obstacles(stage: &Stage, scene: &Scene, room: &[f64]) -> Vec<String> {
+pub(super) fn obstacles(stage: &Stage, scene: &Scene, room: &[f64]) -> Vec<String> {
     let super::DesignProblem { arm, domain, motion, .. } = *stage.problem;
     let mut obstacles = outside(domain, motion, arm, &vec![0.0; arm.dof()]);
     let taken = stage.feedforward.as_ref();

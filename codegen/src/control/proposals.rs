@@ -1,5 +1,6 @@
 //! Gains that are fast enough, for a judge that knows more than a level of V: the firmest first.
 
+use super::region::room;
 use super::search::{Scene, Target};
 use super::settling::settling;
 use super::{DesignProblem, Stage, gain_synthesis};
@@ -21,9 +22,13 @@ const FED_BACK: f64 = 1.3;
 pub fn proposals(problem: &DesignProblem, request: &GainRequest) -> Result<Vec<Tuning>, Error> {
     let stage = Stage::new(problem, false)?;
     let n = problem.arm.dof();
-    let room = problem.domain.width().unwrap_or(vec![0.0; n]);
-    let target = Target { time: request.convergence_time, room };
+    let width = problem.domain.width().unwrap_or(vec![0.0; n]);
+    let target = Target { time: request.convergence_time, room: width };
     let scene = Scene::new(&stage, &target);
+    let own = room(problem.domain, problem.motion, problem.arm);
+    if !gain_synthesis::obstacles(&stage, &scene, &own).is_empty() {
+        return Ok(Vec::new());
+    }
     let periods = match request.period {
         Some(period) => vec![period],
         None => gain_synthesis::PERIODS.to_vec(),

@@ -4,16 +4,15 @@ use super::Means;
 use super::certified::Certified;
 use super::judged::{has_long_period, required, stable, statement_of};
 use super::replaced::{Replaced, Saving};
+use super::requested::{follows, requested};
 use super::step_rounding::rounded_design;
 use crate::bounds::Effort;
-use crate::check::{Checked, Control, GainRequest, GainSource, Tuning};
-use crate::control::{
-    Design, DesignProblem, SingleRounding, StepGraph, StepModel, StepRounding, design, proposals,
-};
+use crate::check::{Checked, Control, GainSource, Tuning};
+use crate::control::{Design, DesignProblem, SingleRounding, StepGraph, StepModel, StepRounding, design};
 use crate::error::{Diagnostics, Error};
 use crate::guarantee::{Kind, Statement};
 use crate::progress::Silent;
-use crate::spec::{LawSpec, RobustGainSpec};
+use crate::spec::RobustGainSpec;
 
 /// A certified model with the controller that the specification asks for.
 ///
@@ -73,7 +72,7 @@ impl Designed {
     }
 
     /// The controller with the switching gain that the specification asks for.
-    fn made(certified: &Certified, control: &Control, means: Means) -> Result<Judged, Error> {
+    pub(super) fn made(certified: &Certified, control: &Control, means: Means) -> Result<Judged, Error> {
         let state = || rounded_design(certified, control, means, false);
         let constant = || rounded_design(certified, control, means, true);
         Ok(match control.robust_gain {
@@ -162,9 +161,9 @@ fn tuning(design: &Design) -> Tuning {
 type Made = (Design, StepGraph, StepRounding);
 
 /// The same, with what is promised of it, where that was asked.
-struct Judged {
+pub(super) struct Judged {
     made: Made,
-    statement: Option<Statement>,
+    pub(super) statement: Option<Statement>,
 }
 
 impl Judged {
@@ -173,54 +172,11 @@ impl Judged {
     }
 
     /// The same with what is promised of it.
-    fn stated(mut self, certified: &Certified, means: Means) -> Self {
+    pub(super) fn stated(mut self, certified: &Certified, means: Means) -> Self {
         let (design, _, rounding) = &self.made;
         self.statement.get_or_insert_with(|| statement_of(certified, design, rounding, means));
         self
     }
-}
-
-/// Whether the errors of the sampled loop can be followed.
-fn follows(certified: &Certified, control: &Control) -> bool {
-    let checked = &certified.checked;
-    control.law != LawSpec::Adaptive && checked.motion.is_some()
-}
-
-/// The controller with gains that `request` asks for and for which the sampled loop is guaranteed: those of a level of V, or else
-/// others that are fast enough.
-///
-/// # Errors
-/// [`Error::Input`] with what stands in the way.
-fn requested(
-    certified: &Certified,
-    control: &Control,
-    request: &GainRequest,
-    means: Means,
-) -> Result<Judged, Error> {
-    let first = Designed::made(certified, control, means).map(|judged| judged.stated(certified, means));
-    let is_sampled =
-        |judged: &Judged| judged.statement.as_ref().is_some_and(|statement| statement.kind == Kind::Sampled);
-    if first.as_ref().is_ok_and(is_sampled) {
-        return first;
-    }
-    let mut nearest = first;
-    for tuning in proposed(certified, control, request)? {
-        let control = Control { gains: GainSource::Given(tuning), ..control.clone() };
-        let Ok(judged) = Designed::made(certified, &control, means) else { continue };
-        let judged = judged.stated(certified, means);
-        if is_sampled(&judged) {
-            return Ok(judged);
-        }
-        if nearest.is_err() && judged.statement.as_ref().is_some_and(|statement| statement.sampled.is_some())
-        {
-            nearest = Ok(judged);
-        }
-    }
-    let statement = nearest?.statement;
-    let reasons = statement.map_or_else(Vec::new, |statement| statement.reasons);
-    let problem = format!("cannot be met: with the best gains found, {}", reasons.join("; "));
-    let help = "take a slower motion, a smaller initial error or a wider tube, allow more time to converge, or raise the torque limits if the drives bear it";
-    Err(Error::input(&certified.checked.loaded.path, "control.design", problem, help))
 }
 
 /// The one with the stronger promise, and of equal ones that with fewer operations; the first where they tie.
@@ -296,10 +252,4 @@ pub(super) fn with_problem<T>(
         torque_error: &|rates| error.torque_error(&proved.certificates, &proved.bounds, rates),
         progress: means.progress,
     })
-}
-
-/// Gains that may meet `request`.
-fn proposed(certified: &Certified, control: &Control, request: &GainRequest) -> Result<Vec<Tuning>, Error> {
-    let means = Means { effort: &Effort::default(), progress: &Silent, cache: None };
-    with_problem(certified, control, means, None, |problem| proposals(problem, request))
 }

@@ -1,0 +1,118 @@
+//! Gains on request: those with which the sampled loop is guaranteed.
+
+use super::Means;
+use super::certified::Certified;
+use super::designed::{Designed, Judged, with_problem};
+use crate::bounds::{Effort, printed_up};
+use crate::check::{Control, GainRequest, GainSource, Tuning};
+use crate::control::proposals;
+use crate::error::Error;
+use crate::guarantee::{Kind, Sampled};
+use crate::progress::Silent;
+use crate::spec::LawSpec;
+
+/// Halvings of a period that is too long.
+const HALVINGS: u32 = 4;
+
+/// Whether the errors of the sampled loop can be followed.
+pub(super) fn follows(certified: &Certified, control: &Control) -> bool {
+    let checked = &certified.checked;
+    control.law != LawSpec::Adaptive && checked.motion.is_some()
+}
+
+/// The controller with gains that `request` asks for and for which the sampled loop is guaranteed: those of a level of V, or else
+/// others that are fast enough.
+///
+/// # Errors
+/// [`Error::Input`] with what stands in the way, and with a shorter period where that is enough.
+pub(super) fn requested(
+    certified: &Certified,
+    control: &Control,
+    request: &GainRequest,
+    means: Means,
+) -> Result<Judged, Error> {
+    let nearest = match attempt(certified, control, request, means) {
+        Ok(judged) => return Ok(judged),
+        Err(nearest) => *nearest,
+    };
+    let file = &certified.checked.loaded.path;
+    let known = nearest.as_ref().ok().and_then(|judged| judged.statement.as_ref());
+    let sampled = known.and_then(|statement| statement.sampled.as_ref());
+    if let (Some(period), None) = (request.period, sampled) {
+        let shorter = (1..=HALVINGS).map(|k| two_digits(period / f64::from(1 << k)));
+        let enough = |shorter: &f64| {
+            let request = GainRequest { period: Some(*shorter), ..request.clone() };
+            let control = Control { gains: GainSource::Requested(request.clone()), ..control.clone() };
+            attempt(certified, &control, &request, means).is_ok()
+        };
+        if let Some(shorter) = shorter.into_iter().find(enough) {
+            let problem = format!("{period} s is too long: there are gains at {shorter} s");
+            let help = "shorten it, widen the tube, or allow more time to converge";
+            return Err(Error::input(file, "control.design.period", problem, help));
+        }
+    }
+    let mut reasons = known.map_or_else(Vec::new, |statement| statement.reasons.clone());
+    if let Some(sampled) = sampled.filter(|sampled| !inside(request, sampled)) {
+        let reach: Vec<String> = sampled.reach.iter().map(|reach| printed_up(*reach)).collect();
+        reasons.push(format!("errors may reach ({}), outside the tube that is asked for", reach.join(", ")));
+    }
+    nearest?;
+    let problem = format!("cannot be met: with the best gains found, {}", reasons.join("; "));
+    let help = "take a slower motion, a smaller initial error or a wider tube, allow more time to converge, or raise the torque limits if the drives bear it";
+    Err(Error::input(file, "control.design", problem, help))
+}
+
+/// The same for the periods of the request alone; where no gains are found, those that come nearest or what the first search says.
+fn attempt(
+    certified: &Certified,
+    control: &Control,
+    request: &GainRequest,
+    means: Means,
+) -> Result<Judged, Box<Result<Judged, Error>>> {
+    let is_sampled = |judged: &Judged| {
+        let statement = judged.statement.as_ref().filter(|statement| statement.kind == Kind::Sampled);
+        let sampled = statement.and_then(|statement| statement.sampled.as_ref());
+        sampled.is_some_and(|sampled| inside(request, sampled))
+    };
+    let mut nearest = match Designed::made(certified, control, means) {
+        Ok(first) => {
+            let first = first.stated(certified, means);
+            if is_sampled(&first) {
+                return Ok(first);
+            }
+            Ok(first)
+        }
+        Err(error) => Err(error),
+    };
+    let tunings = proposed(certified, control, request).map_err(|error| Box::new(Err(error)))?;
+    for tuning in tunings {
+        let control = Control { gains: GainSource::Given(tuning), ..control.clone() };
+        let Ok(judged) = Designed::made(certified, &control, means) else { continue };
+        let judged = judged.stated(certified, means);
+        if is_sampled(&judged) {
+            return Ok(judged);
+        }
+        let followed = judged.statement.as_ref().is_some_and(|statement| statement.sampled.is_some());
+        if nearest.is_err() && followed {
+            nearest = Ok(judged);
+        }
+    }
+    Err(Box::new(nearest))
+}
+
+/// Whether errors stay in the tube that is asked for.
+fn inside(request: &GainRequest, sampled: &Sampled) -> bool {
+    let within = |tube: &Vec<f64>| sampled.reach.iter().zip(tube).all(|(reach, tube)| reach <= tube);
+    request.tube.as_ref().is_none_or(within)
+}
+
+/// Cut to two significant digits: what is told is what was tried.
+fn two_digits(x: f64) -> f64 {
+    format!("{:.1e}", x * 0.995).parse().unwrap_or(x)
+}
+
+/// Gains that may meet `request`.
+fn proposed(certified: &Certified, control: &Control, request: &GainRequest) -> Result<Vec<Tuning>, Error> {
+    let means = Means { effort: &Effort::default(), progress: &Silent, cache: None };
+    with_problem(certified, control, means, None, |problem| proposals(problem, request))
+}
