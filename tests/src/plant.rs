@@ -31,6 +31,10 @@ struct Body {
 pub struct Plant {
     bodies: Vec<Body>,
     gravity: Vector,
+    /// Viscous friction by joint, N·m·s/rad or N·s/m; none at first.
+    pub viscous: Row,
+    /// Coulomb friction by joint, the same both ways, N·m or N; none at first, and none at a speed of 0.
+    pub coulomb: Row,
 }
 
 /// Where a joint is and what moves behind it, base frame.
@@ -71,7 +75,8 @@ impl Plant {
                 armature: link.armature,
             }
         };
-        Self { bodies: chain.links.iter().enumerate().map(body).collect(), gravity: chain.gravity }
+        let bodies = chain.links.iter().enumerate().map(body).collect();
+        Self { bodies, gravity: chain.gravity, viscous: [0.0; MOST], coulomb: [0.0; MOST] }
     }
 
     /// Number of joints.
@@ -94,13 +99,17 @@ impl Plant {
         std::array::from_fn(|i| own[i] + 0.25 * (sum[i] - difference[i]))
     }
 
-    /// q̈ under the torques `torque`.
+    /// q̈ under the torques `torque`, with friction.
     pub fn acceleration(&self, q: &Row, qd: &Row, torque: &Row) -> Row {
         let still = [0.0; MOST];
         let placed = self.placed(q, qd, &still, true);
         let load = self.load(&placed, &still);
         let mut matrix = self.mass_matrix(&placed);
-        let rest = std::array::from_fn(|i| torque[i] - load[i]);
+        let friction = |i: usize| {
+            let side = if qd[i] == 0.0 { 0.0 } else { qd[i].signum() };
+            self.viscous[i] * qd[i] + self.coulomb[i] * side
+        };
+        let rest = std::array::from_fn(|i| torque[i] - load[i] - friction(i));
         solved(&mut matrix, rest, self.dof())
     }
 

@@ -64,7 +64,7 @@ pub fn attacked(own: &Loop, attacks: &[Attack]) -> Found {
 fn aims(own: &Loop) -> Vec<(Aim, usize)> {
     let sample = |t: f64| ((t / own.period).ceil() as usize).clamp(1, own.periods);
     let mut out = Vec::new();
-    let late = [sample(own.promised.settle), own.end, own.periods];
+    let late = [sample(own.promised.settle), own.end.min(own.periods), own.periods];
     for first in EARLY.map(sample).into_iter().chain(late) {
         out.extend((0..own.n).map(|i| (Aim::Position(i), first)));
     }
@@ -87,7 +87,7 @@ fn windows(own: &Loop, frozen: &Frozen, aim: Aim, first: usize) -> Vec<Sensitivi
     let settle = (own.promised.settle / own.period).ceil() as usize;
     let mut later: Vec<usize> =
         (settle..own.periods).step_by(gap).filter(|k| k.abs_diff(own.end) > gap / 2).collect();
-    later.extend([own.end, own.periods]);
+    later.extend([own.end.min(own.periods), own.periods]);
     later.sort_unstable();
     later.retain(|&k| k > first && k <= own.periods);
     let mut out = vec![frozen.sensitivity(aim, 0, first)];

@@ -3,6 +3,7 @@
 use gramforge::Generation;
 use gramforge::internals::graph::Tape;
 use gramforge::internals::guarantee::{Kind, Sampled};
+use gramforge::spec::ScalarSpec;
 use gramforge_tests::chain::Chain;
 use gramforge_tests::plant::{Plant, Row, row};
 
@@ -21,7 +22,6 @@ pub struct Desired {
 
 /// A controller, what is promised of it, and the arms that it may meet.
 pub struct Loop {
-    pub generation: Generation,
     pub promised: Sampled,
     /// The arm as specified.
     pub arm: Plant,
@@ -38,7 +38,8 @@ pub struct Loop {
     tape: Tape<f64>,
     model: Tape<f64>,
     p12: Row,
-    /// By how much the model may be off, N·m or N; zero for an exact model, whose rounding the plant could not tell from its own.
+    /// By how much the step may be off, N·m or N; zero for an exact model in f64, whose rounding the plant could not tell from its
+    /// own. In f32 the step is computed in f64 here, and what it would round by is added.
     pub push: Row,
 }
 
@@ -60,8 +61,7 @@ pub struct Found {
     pub settled: Row,
     pub end: Row,
     pub torque: [Row; 2],
-    /// Largest error as a part of its bound in its period.
-    pub part: f64,
+    /// Largest error of the model as a part of its bound.
     pub model_error: f64,
     /// The first broken promise.
     pub broken: Option<String>,
@@ -79,7 +79,6 @@ impl Default for Found {
                 [f64::INFINITY; gramforge_tests::plant::MOST],
                 [f64::NEG_INFINITY; gramforge_tests::plant::MOST],
             ],
-            part: 0.0,
             model_error: 0.0,
             broken: None,
         }
@@ -96,7 +95,6 @@ impl Found {
             self.torque[1][i] = self.torque[1][i].max(other.torque[1][i]);
         }
         self.runs += other.runs;
-        self.part = self.part.max(other.part);
         self.model_error = self.model_error.max(other.model_error);
         self.broken = self.broken.or_else(|| other.broken.clone());
         self
@@ -105,15 +103,10 @@ impl Found {
 
 impl Loop {
     /// The loop of `generation` on the arms `family`, for the motion and 1 s more if it rests at its end.
-    pub fn new(generation: Generation, specified: &Chain, family: &[Chain]) -> Self {
+    pub fn new(generation: &Generation, specified: &Chain, family: &[Chain]) -> Self {
         let statement = generation.statement().expect("a statement");
         assert_eq!(statement.kind, Kind::Sampled, "{:?}", statement.reasons);
         let promised = statement.sampled.clone().expect("what is proved");
-        Self::of(generation, promised, specified, family)
-    }
-
-    /// The same whatever the kind of the promise.
-    pub fn of(generation: Generation, promised: Sampled, specified: &Chain, family: &[Chain]) -> Self {
         let motion = generation.motion().expect("a motion").clone();
         let design = generation.design().expect("a controller").clone();
         let (n, period) = (generation.given().dof(), design.period);
@@ -136,14 +129,14 @@ impl Loop {
                 })
                 .collect();
         let p12: Vec<f64> = (0..n).map(|i| design.gains.p12[i][i]).collect();
-        let push = if generation.reduced().is_exact() { row(&[]) } else { row(&promised.torque_error) };
+        let precise = generation.reduced().is_exact() && generation.spec().emit.scalar == ScalarSpec::F64;
+        let push = if precise { row(&[]) } else { row(&promised.torque_error) };
         Self {
             tape: Tape::new(&generation.step().expect("a step").code),
             model: Tape::new(generation.code()),
             arm: Plant::new(specified),
             family: family.iter().map(Plant::new).collect(),
             p12: row(&p12),
-            generation,
             promised,
             n,
             period,
@@ -154,6 +147,12 @@ impl Loop {
             between,
             push,
         }
+    }
+
+    /// The same for the first `seconds` alone.
+    pub fn shortened(mut self, seconds: f64) -> Self {
+        self.periods = self.periods.min((seconds / self.period) as usize);
+        self
     }
 
     /// The torque that the step asks for at sample `k`.
@@ -245,7 +244,6 @@ impl Loop {
             if let (true, Some(late)) = (settled, &promised.settled_error) {
                 bound = bound.min(late[i]);
             }
-            found.part = found.part.max(error / (bound + OWN));
             if !(error <= bound + OWN) {
                 found.broken.get_or_insert_with(|| {
                     format!("|q_e| of joint {} is {error} at t = {t} s, more than {bound}", i + 1)
