@@ -79,3 +79,12 @@ fn friction() {
     printed(&case, &own, &found);
     assert_eq!(found.broken, None);
 }
+
+#[test]
+fn the_sign_function() {
+    let case = Case { name: "threedof sign", law: "tight", tolerance: 0.01, ..PLAIN };
+    let edit = |spec: &mut serde_json::Value| {
+        spec["control"].as_object_mut().unwrap().remove("boundary_layer");
+    };
+    no_run_leaves(&case, edit, &at_rest(case.initial), 24);
+}

@@ -96,7 +96,7 @@ fn motions_with_kinks_are_followed_or_refused_with_a_reason() {
         .map(|k| {
             let t = 0.05 * f64::from(k);
             let bump = (1.0 - (std::f64::consts::PI * t).cos()) * 0.1;
-            // Every third row is a millimetre's worth off: the jerk is large.
+            // Every third row is a little off: the jerk is large.
             let kink = if k % 3 == 1 && k > 3 && k < 37 { 1e-3 } else { 0.0 };
             format!("{t:.6},{:.9},{:.9},{:.9}\n", bump + kink, 0.3 - bump, -1.2 + 2.0 * bump)
         })
@@ -107,6 +107,7 @@ fn motions_with_kinks_are_followed_or_refused_with_a_reason() {
     let generation = Generation::new(loaded).unwrap();
     let statement = generation.statement().unwrap().clone();
     if statement.kind != Kind::Sampled {
+        println!("from a table: {:?}", statement.reasons);
         assert!(!statement.reasons.is_empty());
         return;
     }
