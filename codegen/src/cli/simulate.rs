@@ -7,11 +7,13 @@ use serde::Serialize;
 
 use super::progress::{generated, watched};
 use super::{json, show_warnings};
+use crate::arm::Joint;
 use crate::error::Error;
+use crate::guarantee::Sampled;
 use crate::output::write_if_changed;
 use crate::pipeline::Generation;
 use crate::progress::Stage;
-use crate::report::{chatter_table, metrics_table, monte_carlo_table, plot};
+use crate::report::{CertifiedErrors, chatter_table, funnel_plot, metrics_table, monte_carlo_table, plot};
 use crate::simulate::{
     Chatter, Metrics, MonteCarlo, MonteCarloRequest, SETTLE, Scenario, chatter, monte_carlo, simulate,
 };
@@ -22,7 +24,8 @@ use crate::spec::LawSpec;
 pub(super) struct Simulate {
     /// The specification file; it needs `motion` and `control`.
     spec: PathBuf,
-    /// Also draw errors, torques and V over time into this SVG file; folders that are missing are made.
+    /// Also draw errors, torques and V over time into this SVG file, or with `--runs` the largest errors found inside those that
+    /// are certified; folders that are missing are made.
     #[arg(long)]
     plot: Option<PathBuf>,
     /// Also run the loop this many times from the worst initial errors, with uncertain numbers and the error of the model
@@ -58,8 +61,13 @@ impl Simulate {
         })?;
         let found = self.runs.map(|runs| sought(&generation, &scenario, runs as usize)).transpose()?;
         let joints = &generation.arm().joints;
+        let sampled = generation.statement().and_then(|statement| statement.sampled.as_ref());
         if let Some(path) = &self.plot {
-            write_if_changed(path, &plot(&comparison, joints)?)?;
+            let picture = match (&found, sampled) {
+                (Some(found), Some(sampled)) => funnel_plot(sampled, found, joints)?,
+                _ => plot(&comparison, joints)?,
+            };
+            write_if_changed(path, &picture)?;
         }
         if !self.json {
             let mut out = metrics_table(&comparison, joints);
@@ -67,7 +75,7 @@ impl Simulate {
                 out += &format!("\n{}", chatter_table(&chatter, comparison.exact.relative_step()));
             }
             if let Some(found) = &found {
-                out += &format!("\n{}", monte_carlo_table(found, None, joints));
+                out += &format!("\n{}", beside(found, sampled, joints));
             }
             return Ok(out);
         }
@@ -80,6 +88,20 @@ impl Simulate {
             monte_carlo: found.as_ref(),
         })
     }
+}
+
+/// What was found beside what is certified, where anything is.
+fn beside(found: &MonteCarlo, sampled: Option<&Sampled>, joints: &[Joint]) -> String {
+    let Some(sampled) = sampled else { return monte_carlo_table(found, None, joints) };
+    let [low, high] = sampled.torque_range();
+    let torque_max: Vec<f64> = low.iter().zip(&high).map(|(low, high)| high.max(-low)).collect();
+    let certified = CertifiedErrors {
+        reach: &sampled.reach,
+        settled_error: sampled.settled_error.as_ref().unwrap_or(&sampled.reach),
+        end_error: &sampled.end_error,
+        torque_max: &torque_max,
+    };
+    monte_carlo_table(found, Some(&certified), joints)
 }
 
 /// The largest errors and torques of that many runs, settled where the guarantee says.

@@ -2,6 +2,7 @@
 
 mod claims;
 mod figure;
+mod funnel;
 mod grid;
 mod monte_carlo;
 mod plot;
@@ -11,6 +12,7 @@ mod table;
 
 pub(crate) use claims::largest_difference;
 pub use claims::{Claim, claims};
+pub use funnel::funnel_plot;
 pub use monte_carlo::{CertifiedErrors, monte_carlo_table};
 pub use plot::plot;
 pub use reproduction::{Figures, figures};

@@ -80,7 +80,9 @@ impl Sample<'_> {
             let (mean, most) = (0.5 * t * rate + 0.125 * t * bend, t * rate + 0.25 * t * bend);
             let numbers = of_numbers(problem, local, i);
             let lagged = t * local.lag.rate[i].magnitude();
-            let middle = self.fed[i] - 0.5 * (low + high);
+            let fed = self.fed[i];
+            let half = half + 0.5 * (fed[1] - fed[0]);
+            let middle = 0.5 * (fed[0] + fed[1]) - 0.5 * (low + high);
             load.mean.push(UP * (self.wrong[i] + half + mean + ends(local.lag.end[i])));
             let others = self.wrong[i] + half + most + lagged + middle.abs();
             load.others.push(UP * others);

@@ -27,8 +27,8 @@ pub(super) struct Sample<'a> {
     /// Gains of the line through the switching term, and what that differs from it by.
     line: Vec<f64>,
     off_line: Vec<f64>,
-    /// Coulomb friction that is compensated.
-    pub(super) fed: Vec<f64>,
+    /// Least and largest Coulomb friction that is compensated.
+    pub(super) fed: Vec<[f64; 2]>,
 }
 
 impl<'a> Sample<'a> {
@@ -52,7 +52,10 @@ impl<'a> Sample<'a> {
             each.map(|(number, added)| number.most() * added.enclosure.torque.change(i, &away, lambda)).sum()
         };
         let wrong = (0..n).map(|i| problem.torque_error[i] + off_line[i] + turned(i) + added(i)).collect();
-        let fed = (0..n).map(|i| compensation(problem.compensated[i], local.course.target.qd[i])).collect();
+        let course = &local.course;
+        let fed = (0..n)
+            .map(|i| compensation(problem.compensated[i], course.target.qd[i], course.apart[n + i]))
+            .collect();
         let pushed_size = pushed.sizes();
         Ok(Self { problem, local, n, x, away, control, pushed, pushed_size, wrong, line, off_line, fed })
     }
@@ -80,14 +83,15 @@ impl<'a> Sample<'a> {
         (0..n)
             .map(|i| {
                 let friction = problem.arm.joints[i].viscous_friction * local.course.target.qd[i];
-                let middle = torque.centre[i] + friction + self.fed[i];
+                let middle = torque.centre[i] + friction;
                 let half = around[i]
                     + torque.beyond(i, lambda)
                     + weighed(torque.slopes(i), &local.course.apart)
                     + self.off_line[i]
                     + problem.torque_error[i]
                     + ROUNDED * (middle.abs() + weighed(&rows[i], &self.x));
-                [middle - half, middle + half]
+                let [low, high] = self.fed[i];
+                [middle + low - half, middle + high + half]
             })
             .collect()
     }

@@ -47,13 +47,15 @@ pub(super) fn switched(problem: &Problem, local: &Local, x: &[f64], s: &[f64]) -
     out
 }
 
-/// Coulomb friction that the command compensates where the desired speed is this.
-pub(super) fn compensation([forwards, backwards]: [f64; 2], speed: f64) -> f64 {
-    if speed > 0.0 {
-        forwards
-    } else if speed < 0.0 {
-        backwards
+/// Least and largest Coulomb friction that the command compensates where the desired speed is within `apart` of this.
+pub(super) fn compensation([forwards, backwards]: [f64; 2], speed: f64, apart: f64) -> [f64; 2] {
+    if speed > apart {
+        [forwards; 2]
+    } else if speed < -apart {
+        [backwards; 2]
+    } else if apart == 0.0 {
+        [0.0; 2]
     } else {
-        0.0
+        [backwards.min(forwards).min(0.0), forwards.max(backwards).max(0.0)]
     }
 }
