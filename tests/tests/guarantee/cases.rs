@@ -39,7 +39,7 @@ pub fn named() -> Vec<Named> {
         (bare("puma560 bare", "puma560"), BARE),
         (bare("ur5 bare", "ur5"), BARE),
         (bare("panda bare", "panda"), BARE),
-        (loaded("panda payload", "panda"), LOADED),
+        (loaded("stanford payload", "stanford"), LOADED),
         (robust("panda report", "panda", "report"), TIGHT),
     ]
 }
@@ -54,7 +54,7 @@ pub fn others() -> Vec<Case> {
         zero("ur5 from 0", "ur5"),
         zero("stanford from 0", "stanford"),
         zero("panda from 0", "panda"),
-        Case { payload: 0.2, ..of("stanford payload", "stanford") },
+        Case { payload: 0.2, ..of("panda payload", "panda") },
         Case { period: 8e-3, ..of("ur5 8 ms", "ur5") },
         Case { period: 4e-3, law: "tight", tolerance: 0.01, ..of("puma560 tight 4 ms", "puma560") },
         Case { armature: false, initial: 0.03, ..of("ur5 bare 0.03", "ur5") },
