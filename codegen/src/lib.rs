@@ -75,8 +75,8 @@ pub mod internals {
     }
 
     open! {
-        arm bounds check choose control domain dynamics emit error graph lagrangian model motion number numerics output
-        pipeline progress reduction text torque trig
+        arm bounds check choose control domain dynamics emit error graph guarantee lagrangian model motion number numerics
+        output pipeline progress reduction text torque trig
     }
     #[cfg(feature = "cli")]
     open! { cli report reproduce }

@@ -27,39 +27,39 @@ pub struct Link {
     pub follows: (usize, f64, f64),
 }
 
-type Vector = [f64; 3];
-type Matrix = [[f64; 3]; 3];
+pub(crate) type Vector = [f64; 3];
+pub(crate) type Matrix = [[f64; 3]; 3];
 
-fn add(a: Vector, b: Vector) -> Vector {
+pub(crate) fn add(a: Vector, b: Vector) -> Vector {
     std::array::from_fn(|i| a[i] + b[i])
 }
 
-fn scaled(a: Vector, k: f64) -> Vector {
+pub(crate) fn scaled(a: Vector, k: f64) -> Vector {
     a.map(|x| k * x)
 }
 
-fn dot(a: Vector, b: Vector) -> f64 {
+pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn cross(a: Vector, b: Vector) -> Vector {
+pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-fn apply(m: &Matrix, x: Vector) -> Vector {
+pub(crate) fn apply(m: &Matrix, x: Vector) -> Vector {
     std::array::from_fn(|i| dot(m[i], x))
 }
 
-fn times(a: &Matrix, b: &Matrix) -> Matrix {
+pub(crate) fn times(a: &Matrix, b: &Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
 }
 
-fn transposed(a: &Matrix) -> Matrix {
+pub(crate) fn transposed(a: &Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
 }
 
 /// The turn by `angle` about the unit vector `axis`, after Rodrigues.
-fn about(axis: Vector, angle: f64) -> Matrix {
+pub(crate) fn about(axis: Vector, angle: f64) -> Matrix {
     let (s, c) = angle.sin_cos();
     let across = [[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]];
     std::array::from_fn(|i| {
@@ -70,7 +70,7 @@ fn about(axis: Vector, angle: f64) -> Matrix {
     })
 }
 
-fn turned([roll, pitch, yaw]: Vector) -> Matrix {
+pub(crate) fn turned([roll, pitch, yaw]: Vector) -> Matrix {
     let x = about([1.0, 0.0, 0.0], roll);
     let y = about([0.0, 1.0, 0.0], pitch);
     times(&about([0.0, 0.0, 1.0], yaw), &times(&y, &x))

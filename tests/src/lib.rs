@@ -4,6 +4,7 @@ pub mod chain;
 pub mod double;
 pub mod gains;
 pub mod oracle;
+pub mod plant;
 pub mod random;
 pub mod scratch;
 pub mod tracked;

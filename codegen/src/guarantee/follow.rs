@@ -37,6 +37,9 @@ pub struct Sampled {
     pub valid_until: Option<f64>,
     /// Range of the torque that the law asks for, by joint, N·m or N.
     pub torque: Vec<[f64; 2]>,
+    /// What the emitted step was allowed to be wrong by at a sample, rounding included, by joint, N·m or N: its torque less that of
+    /// the law about the arm as specified.
+    pub torque_error: Vec<f64>,
     /// When the torque comes nearest to its limits, by joint, s.
     pub torque_time: Vec<f64>,
     /// Bound by joint on |q_e| during each period that was followed, with its end, s.
@@ -112,6 +115,7 @@ impl<'a> Claim<'a> {
             speed_error: vec![0.0; n],
             valid_until: None,
             torque: vec![[f64::INFINITY, f64::NEG_INFINITY]; n],
+            torque_error: problem.torque_error.clone(),
             torque_time: vec![0.0; n],
             course: Vec::new(),
         };

@@ -101,7 +101,9 @@ impl Motion {
                 })
             }
             Self::Spline(spline) => {
-                let first = spline.times.partition_point(|&knot| knot <= t0).saturating_sub(1);
+                let later = spline.times.partition_point(|&knot| knot <= t0);
+                // At its end the motion is still on the last piece.
+                let first = later.saturating_sub(1).min(spline.pieces.len().saturating_sub(1));
                 let pieces = spline.pieces.iter().zip(spline.times.windows(2)).skip(first);
                 let inside = pieces.take_while(|(_, ends)| ends[0] <= t1);
                 let ranges = inside.map(|(piece, ends)| {
@@ -199,7 +201,7 @@ mod tests {
     #[test]
     fn no_instant_leaves_the_span_and_a_short_one_is_narrow() {
         for motion in motions() {
-            for k in 0..40 {
+            for k in 0..=40 {
                 for length in [0.0, 1e-4, 0.01, 0.1, 0.7] {
                     let t0 = 2.0 * f64::from(k) / 40.0;
                     let t1 = (t0 + length).min(2.0);
