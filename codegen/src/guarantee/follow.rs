@@ -83,12 +83,17 @@ pub(super) fn follow(problem: &Problem, declared: &[f64], settle: Option<f64>) -
     let (whole, rests) = (libm::ceil(periods - 1e-9), motion.rests());
     // A motion that does not rest at its end is claimed for as long as it was planned.
     let last = if rests { whole } else { libm::floor(periods + 1e-9) };
-    let last = repetition.as_ref().map_or(last, |repetition| last.min(repetition.periods as f64));
+    let mut funnel = Funnel::new(problem);
+    let settle = settle.unwrap_or_else(|| settling(problem, &funnel));
+    // Whole repetitions until the errors have settled: what is closed then holds errors as small as they are.
+    let last = repetition.as_ref().map_or(last, |repetition| {
+        let own = repetition.periods as f64;
+        let settled = libm::ceil(settle / (own * problem.period)).max(1.0);
+        if settled * own <= last { settled * own } else { own * libm::floor(last / own) }
+    });
     if last > MOST {
         return Err(Open::Long(last));
     }
-    let mut funnel = Funnel::new(problem);
-    let settle = settle.unwrap_or_else(|| settling(problem, &funnel));
     let mut claim = Claim::new(problem, declared, settle, n);
     claim.start(&funnel.set)?;
     while (funnel.index as f64) < last {
@@ -97,8 +102,8 @@ pub(super) fn follow(problem: &Problem, declared: &[f64], settle: Option<f64>) -
     claim.out.end_error = funnel.set.hull()[..n].to_vec();
     if rests {
         claim.rest(&mut funnel)?;
-    } else if repetition.is_some() {
-        claim.repeat(&funnel.set, last as usize)?;
+    } else if let Some(repetition) = repetition {
+        claim.repeat(&funnel.set, last * problem.period, repetition.periods)?;
     } else {
         claim.out.valid_until = Some(last * problem.period);
     }
@@ -224,14 +229,13 @@ impl<'a> Claim<'a> {
         Ok(false)
     }
 
-    /// Whether a box around the set at the end of the first repetition holds it again at the end of the next.
-    fn repeat(&mut self, set: &ErrorSet, periods: usize) -> Result<(), Open> {
+    /// Whether a box around `set`, that at the end of a repetition, `offset` s, holds the errors again at the end of the next.
+    fn repeat(&mut self, set: &ErrorSet, offset: f64, periods: usize) -> Result<(), Open> {
         let (gains, n) = (self.problem.gains, self.problem.arm.dof());
         let around: Vec<f64> = set.turned_hull(gains).iter().map(|x| ROOM * x + 1e-13).collect();
         let mut start = ErrorSet::new(&vec![0.0; n], &vec![0.0; n], self.problem.numbers.len());
         start.add_box(gains, &around);
         let mut funnel = Funnel::from(self.problem, start, 0);
-        let offset = periods as f64 * self.problem.period;
         let mut steps = Vec::new();
         let mut back = Vec::new();
         for _ in 0..periods {

@@ -279,7 +279,7 @@ fn step<M: ControlStep<N, P>, const N: usize, const P: usize>(x: &[f64]) -> Vec<
     let part = |k: usize| -> [M::Scalar; N] { numbers(x, k * N) };
     let desired = Desired { q: part(2), qd: part(3), qdd: part(4) };
     let out = M::step(&part(0), &part(1), &desired, &numbers::<_, P>(x, 5 * N));
-    let all = out.asked.into_iter().chain(out.limited).chain(out.theta).chain([out.unread]);
+    let all = out.asked.into_iter().chain(out.limited).chain(out.correction).chain([out.unread]);
     all.map(Real::to_f64).collect()
 }
 

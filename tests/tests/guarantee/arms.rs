@@ -197,7 +197,7 @@ impl Case {
     /// The files of the specification after `edit`, in a folder that lives as long as the first part of the answer.
     pub fn written(&self, edit: impl FnOnce(&mut Value)) -> (tempfile::TempDir, PathBuf, Value) {
         let folder = tempfile::tempdir().unwrap();
-        let wide = "lower=\"-7\" upper=\"7\" effort=\"2000\" velocity=\"50\"";
+        let wide = "lower=\"-7\" upper=\"7\" effort=\"100000\" velocity=\"50\"";
         let urdf = self.chain().urdf();
         let narrow = "lower=\"-2\" upper=\"2\" effort=\"500\" velocity=\"3\"";
         assert!(urdf.contains(narrow));
