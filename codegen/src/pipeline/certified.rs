@@ -19,6 +19,9 @@ use crate::progress::Stage;
 use crate::reduction::Regression;
 use crate::torque::Regressor;
 
+/// A torque error by joint, N·m or N, and the rates for which it holds.
+pub(super) type Known = (Rates, Vec<f64>);
+
 /// A model with bounds on its errors.
 ///
 /// Holds: no bound is exceeded by any state of the domain, and every bound is a finite number.
@@ -31,7 +34,7 @@ pub(super) struct Certified {
     /// The model and what is proved of it.
     pub proved: Proved,
     /// Torque errors of the model of the arm as specified, by the rates that were asked for: each takes seconds.
-    pub known: Arc<Mutex<Vec<(Rates, Vec<f64>)>>>,
+    pub known: Arc<Mutex<Vec<Known>>>,
 }
 
 /// A model and what is proved of it: what took the time, and what gains do not change.
