@@ -26,7 +26,12 @@ pub fn proposals(problem: &DesignProblem, request: &GainRequest) -> Result<Vec<T
     let target = Target { time: request.convergence_time, room: width };
     let scene = Scene::new(&stage, &target);
     let own = room(problem.domain, problem.motion, problem.arm);
-    if !gain_synthesis::obstacles(&stage, &scene, &own).is_empty() {
+    let start = &problem.control.initial_error.position;
+    let beyond = |tube: &Vec<f64>| start.iter().zip(tube).any(|(start, tube)| start > tube);
+    // What no gains remove.
+    if request.tube.as_ref().is_some_and(beyond)
+        || !gain_synthesis::obstacles(&stage, &scene, &own).is_empty()
+    {
         return Ok(Vec::new());
     }
     let periods = match request.period {
@@ -34,7 +39,6 @@ pub fn proposals(problem: &DesignProblem, request: &GainRequest) -> Result<Vec<T
         None => gain_synthesis::PERIODS.to_vec(),
     };
     let rho = expected_gain(problem, &stage.disturbance);
-    let start = &problem.control.initial_error.position;
     let mut out = Vec::new();
     let mut served = 0;
     for period in periods {
