@@ -16,6 +16,8 @@ const LATE: f64 = 10_000.0;
 const SETTLED: f64 = 8.0;
 /// How much larger than the set a box is that is to hold for ever.
 const ROOM: f64 = 1.05;
+/// The same of a box that is to hold after a repetition: the errors come back into it only as fast as they die away.
+const ROOMS: [f64; 4] = [1.05, 1.5, 2.5, 6.0];
 /// Trials to find such a box, and most periods that it may take to come back into it.
 const TRIALS: usize = 12;
 const RETURN: usize = 4000;
@@ -103,7 +105,12 @@ pub(super) fn follow(problem: &Problem, declared: &[f64], settle: Option<f64>) -
     if rests {
         claim.rest(&mut funnel)?;
     } else if let Some(repetition) = repetition {
-        claim.repeat(&funnel.set, last * problem.period, repetition.periods)?;
+        let offset = last * problem.period;
+        for room in ROOMS {
+            if claim.repeat(&funnel.set, offset, repetition.periods, room)? {
+                break;
+            }
+        }
     } else {
         claim.out.valid_until = Some(last * problem.period);
     }
@@ -230,9 +237,9 @@ impl<'a> Claim<'a> {
     }
 
     /// Whether a box around `set`, that at the end of a repetition, `offset` s, holds the errors again at the end of the next.
-    fn repeat(&mut self, set: &ErrorSet, offset: f64, periods: usize) -> Result<(), Open> {
+    fn repeat(&mut self, set: &ErrorSet, offset: f64, periods: usize, room: f64) -> Result<bool, Open> {
         let (gains, n) = (self.problem.gains, self.problem.arm.dof());
-        let around: Vec<f64> = set.turned_hull(gains).iter().map(|x| ROOM * x + 1e-13).collect();
+        let around: Vec<f64> = set.turned_hull(gains).iter().map(|x| room * x + 1e-13).collect();
         let mut start = ErrorSet::new(&vec![0.0; n], &vec![0.0; n], self.problem.numbers.len());
         start.add_box(gains, &around);
         let mut funnel = Funnel::from(self.problem, start, 0);
@@ -259,7 +266,7 @@ impl<'a> Claim<'a> {
                 *end = steps.iter().map(|during| during.during[step]).fold(0.0, f64::max);
             }
         }
-        Ok(())
+        Ok(held)
     }
 
     fn finished(mut self) -> Sampled {
