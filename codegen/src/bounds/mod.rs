@@ -47,7 +47,9 @@ pub use peak::workspace_peak_torque;
 pub use rates::Rates;
 pub use recursion::{beside_expansion, recursion, recursion_rounding, rounded_angles};
 pub use region::position_bound;
-pub(crate) use rounding::{down, percent_up, printed_down, printed_up, published, vanishing};
+pub(crate) use rounding::{
+    down, percent_up, printed_above, printed_below, printed_down, printed_up, published, vanishing,
+};
 pub use torque::{Met, Torque, peak_torque, separate_error, torque_error, torque_exceeds};
 pub(crate) use torque_scale::SCATTERED;
 pub use torque_scale::TorqueScale;

@@ -120,15 +120,26 @@ pub fn printed_down(x: f64) -> String {
     short(down(x, 4))
 }
 
+/// `x` of any sign with four digits, never below.
+pub fn printed_above(x: f64) -> String {
+    if x < 0.0 { format!("-{}", printed_down(-x)) } else { printed_up(x) }
+}
+
+/// `x` of any sign with four digits, never above.
+pub fn printed_below(x: f64) -> String {
+    if x < 0.0 { format!("-{}", printed_up(-x)) } else { printed_down(x) }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{printed_down, printed_up, up};
+    use super::{printed_above, printed_below, printed_down, printed_up, up};
 
     #[test]
     fn four_digits_enclose_what_they_print() {
         assert_eq!((printed_down(82.839).as_str(), printed_up(82.839).as_str()), ("82.83", "82.84"));
         assert_eq!((printed_down(0.05).as_str(), printed_up(0.05).as_str()), ("0.05000", "0.05000"));
         assert_eq!((printed_down(0.0).as_str(), printed_up(0.0).as_str()), ("0", "0"));
+        assert_eq!((printed_below(-82.839).as_str(), printed_above(-82.839).as_str()), ("-82.84", "-82.83"));
         let mut x = 1e-6_f64;
         while x < 1e6 {
             let (below, above) =

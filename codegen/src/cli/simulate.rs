@@ -61,7 +61,7 @@ impl Simulate {
         })?;
         let found = self.runs.map(|runs| sought(&generation, &scenario, runs as usize)).transpose()?;
         let joints = &generation.arm().joints;
-        let sampled = generation.statement().and_then(|statement| statement.sampled.as_ref());
+        let sampled = generation.statement().and_then(|statement| statement.promised());
         if let Some(path) = &self.plot {
             let picture = match (&found, sampled) {
                 (Some(found), Some(sampled)) => funnel_plot(sampled, found, joints)?,

@@ -223,6 +223,6 @@ fn longest(scene: &Scene, period: f64) -> Result<Option<f64>, Error> {
 }
 
 /// Cut to two significant digits: what is told is what was tried.
-fn two_digits(x: f64) -> f64 {
+pub fn two_digits(x: f64) -> f64 {
     format!("{:.1e}", x * 0.995).parse().unwrap_or(x)
 }

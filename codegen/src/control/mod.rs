@@ -32,6 +32,7 @@ pub use design::{Design, StepModel};
 pub use error_envelope::Envelope;
 pub use family::{least_eigenvalue, outweighs, smallest_multiple};
 pub use form::InertiaBounds;
+pub use gain_synthesis::two_digits;
 pub use gains::Gains;
 pub use guarantee::Guarantee;
 pub use inertia::{Cell, Extremes, Inertia};

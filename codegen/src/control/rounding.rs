@@ -63,7 +63,7 @@ pub fn loop_rounding(
         position_error: &errors.position,
         robust_gain,
     };
-    [rounding.torque(&working), rounding.wrong_sign(&design.gains, &errors.rates)]
+    [rounding.torque(&working), rounding.s_error(&working)]
 }
 
 /// Bounds on what rounds, while the joints stay inside the domain.
@@ -164,14 +164,28 @@ impl<'a> Rounding<'a> {
         (0..n).map(of).collect()
     }
 
-    /// The same of a law in f64.
-    fn double(&self, working: &Working) -> Vec<f64> {
-        let Working { gains, period, rates, s, position_error, robust_gain } = *working;
-        let n = self.position.len();
+    /// Bound by joint on what s is off by where the law takes its side, rad/s or m/s.
+    fn s_error(&self, working: &Working) -> Vec<f64> {
+        let [q, qd] = self.double_inputs(working);
+        let pulled = working.gains.p12.iter().map(|row| weighed(row, &q));
+        let double = qd.iter().zip(pulled).map(|(qd, pulled)| qd + pulled);
+        let single = self.wrong_sign(working.gains, working.rates);
+        double.zip(single).map(|(double, single)| double + single).collect()
+    }
+
+    /// What q and q̇ are off by on the way into a law in f64.
+    fn double_inputs(&self, working: &Working) -> [Vec<f64>; 2] {
         let off = |x: f64| MEASURED * UNIT * x;
-        let q: Vec<f64> = self.position.iter().map(|&q| off(q)).collect();
-        let qd: Vec<f64> =
-            self.position.iter().zip(&rates.speed).map(|(q, speed)| off(q / period + speed)).collect();
+        let speed = &working.rates.speed;
+        let q = self.position.iter().map(|&q| off(q)).collect();
+        [q, self.position.iter().zip(speed).map(|(q, speed)| off(q / working.period + speed)).collect()]
+    }
+
+    /// What rounding changes the torque of a law in f64 by.
+    fn double(&self, working: &Working) -> Vec<f64> {
+        let Working { gains, rates, s, position_error, robust_gain, .. } = *working;
+        let n = self.position.len();
+        let [q, qd] = self.double_inputs(working);
         let measured = self.measured(working, &q, &qd, &vec![0.0; n]);
         let model = self.model.torque(rates);
         // A position that is off by a part of itself turns what the model adds up by as much.

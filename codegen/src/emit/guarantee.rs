@@ -6,11 +6,10 @@ use quote::quote;
 use super::docs::list;
 use super::literal::{Numbers, Rounding, count};
 use super::{Module, constant};
-use crate::bounds::{printed_down, six_digits_up};
+use crate::bounds::{printed_above, printed_below, printed_down, printed_up, six_digits_up};
 use crate::control::Design;
 use crate::error::Error;
 use crate::guarantee::{Kind, Sampled, Statement};
-use crate::number::{decimal, short};
 use crate::text::escaped;
 
 pub(super) fn guarantee(
@@ -118,10 +117,11 @@ fn docs(design: &Design, statement: &Statement) -> Vec<String> {
 fn sampled_docs(sampled: &Sampled) -> Vec<String> {
     let until = match sampled.valid_until {
         None => "for ever".to_string(),
-        Some(end) => format!("until t = {} s", short(end)),
+        Some(end) => format!("until t = {} s", printed_down(end)),
     };
     let [low, high] = sampled.torque_range();
-    let shown = |x: &[f64]| x.iter().map(|x| short(*x)).collect::<Vec<_>>().join(", ");
+    let shown = |x: &[f64], of: fn(f64) -> String| x.iter().map(|x| of(*x)).collect::<Vec<_>>().join(", ");
+    let (low, high) = (shown(&low, printed_below), shown(&high, printed_above));
     let mut lines = vec![
         format!(" From every initial error specified, the loop that runs holds {until}:"),
         String::new(),
@@ -130,13 +130,13 @@ fn sampled_docs(sampled: &Sampled) -> Vec<String> {
     if let Some(error) = &sampled.settled_error {
         lines.push(format!(
             " - The same from t = {} s on: at most ({}).",
-            decimal(sampled.settle, 3),
+            printed_up(sampled.settle),
             list(error)
         ));
     }
     lines.extend([
         format!(" - The same at the end of the motion: at most ({}).", list(&sampled.end_error)),
-        format!(" - The torque that the law asks for, by joint: from ({}) to ({}).", shown(&low), shown(&high)),
+        format!(" - The torque that the law asks for, by joint: from ({}) to ({}).", low, high),
         String::new(),
         " The torque is computed at each sample from q, q̇ and the reference of that instant, and held for one period. The arm is"
             .to_string(),

@@ -16,12 +16,16 @@ pub(super) struct Course {
     pub(super) span: Span,
     /// Bound on what q_d and q̇_d at the start differ from the target's by.
     pub(super) apart: Vec<f64>,
+    /// Bound on what q̈_d differs from that of the start by. A step of speed counts as 2/T times its height: that adds no less to
+    /// speed and position within the period.
+    pub(super) late: Vec<f64>,
     /// q_d and q̇_d at the start and at the end.
     ends: [[Vec<Interval>; 2]; 2],
 }
 
 impl Course {
-    /// The period from `time` on, early or late by up to `slack`, s. At and after its end the motion rests, if it is one that does.
+    /// The period from `time` on, where each sinusoid of the motion may be early or late by up to `slack`, s. At and after its end the
+    /// motion rests, if it is one that does.
     pub(super) fn new(motion: &Motion, time: f64, period: f64, slack: f64) -> Self {
         let end = motion.duration();
         if time >= end {
@@ -29,7 +33,7 @@ impl Course {
         }
         let target = motion.at(time);
         let next = (time + period).min(end);
-        let about = |from: f64, to: f64| motion.span((from - slack).max(0.0), (to + slack).min(end));
+        let about = |from: f64, to: f64| motion.span_late(from, to, slack);
         let [at, after] = [about(time, time), about(next, next)];
         let mut span = about(time, next);
         let t = Interval::point(period);
@@ -43,18 +47,24 @@ impl Course {
                 .map(|i| half_square * Interval::point(target.qdd[i]) - (after.q[i] - at.q[i] - t * at.qd[i]))
                 .collect(),
         ];
+        // What rounding leaves of the speed at the end goes in a step.
+        let step = |i: usize| if rests { after.qd[i].magnitude() } else { 0.0 };
+        let step: Vec<f64> = (0..n).map(step).collect();
         if rests {
             for range in span.qd.iter_mut().chain(&mut span.qdd).chain(&mut span.jerk) {
                 *range = range.hull(Interval::ZERO);
             }
         }
+        let late = (0..n)
+            .map(|i| (span.qdd[i] - Interval::point(target.qdd[i])).magnitude() + 2.0 * step[i] / period)
+            .collect();
         let last = (0..n).map(|i| still(i, &after.qd)).collect();
         let off = |range: &[Interval], x: &[f64]| -> Vec<f64> {
             range.iter().zip(x).map(|(range, &x)| (*range - Interval::point(x)).magnitude()).collect()
         };
         let mut apart = off(&at.q, &target.q);
         apart.extend(off(&at.qd, &target.qd));
-        Self { target, drift, span, apart, ends: [[at.q, at.qd], [after.q, last]] }
+        Self { target, drift, span, apart, late, ends: [[at.q, at.qd], [after.q, last]] }
     }
 
     /// Whether nothing moves.
@@ -75,8 +85,8 @@ impl Course {
         };
         let target = Target { q: end.q, qd: vec![0.0; n], qdd: vec![0.0; n] };
         let state = [span.q.clone(), still.clone()];
-        let apart = vec![0.0; 2 * n];
-        Self { target, drift: [still.clone(), still], span, apart, ends: [state.clone(), state] }
+        let (apart, late) = (vec![0.0; 2 * n], vec![0.0; n]);
+        Self { target, drift: [still.clone(), still], span, apart, late, ends: [state.clone(), state] }
     }
 }
 

@@ -4,7 +4,6 @@ use nalgebra::DMatrix;
 
 use super::funnel::{Funnel, Lost, Step};
 use super::problem::Problem;
-use super::repetition::Repetition;
 use super::set::ErrorSet;
 use crate::bounds::{down, six_digits_up};
 
@@ -81,14 +80,14 @@ pub(super) fn follow(problem: &Problem, declared: &[f64], settle: Option<f64>) -
     let n = problem.arm.dof();
     let motion = problem.motion;
     let periods = motion.duration() / problem.period;
-    let repetition = Repetition::of(motion, problem.period);
+    let repetition = problem.repetition.as_ref();
     let (whole, rests) = (libm::ceil(periods - 1e-9), motion.rests());
     // A motion that does not rest at its end is claimed for as long as it was planned.
     let last = if rests { whole } else { libm::floor(periods + 1e-9) };
     let mut funnel = Funnel::new(problem);
     let settle = settle.unwrap_or_else(|| settling(problem, &funnel));
     // Whole repetitions until the errors have settled: what is closed then holds errors as small as they are.
-    let last = repetition.as_ref().map_or(last, |repetition| {
+    let last = repetition.map_or(last, |repetition| {
         let own = repetition.periods as f64;
         let settled = libm::ceil(settle / (own * problem.period)).max(1.0);
         if settled * own <= last { settled * own } else { own * libm::floor(last / own) }
@@ -148,8 +147,7 @@ impl<'a> Claim<'a> {
     }
 
     fn take(&mut self, step: &Step) -> Result<(), Open> {
-        let hull: Vec<f64> = step.end.iter().chain(&step.speed).copied().collect();
-        self.within(&hull)?;
+        self.within(&step.hull)?;
         self.count(step);
         self.out.course.push((step.time, step.during.clone()));
         Ok(())
@@ -157,9 +155,10 @@ impl<'a> Claim<'a> {
 
     fn count(&mut self, step: &Step) {
         let settled = step.time > self.out.settle;
-        for i in 0..step.end.len() {
+        let n = step.during.len();
+        for i in 0..n {
             self.out.reach[i] = self.out.reach[i].max(step.during[i]);
-            self.out.speed_error[i] = self.out.speed_error[i].max(step.speed[i]);
+            self.out.speed_error[i] = self.out.speed_error[i].max(step.hull[n + i]);
             if settled {
                 self.settled[i] = self.settled[i].max(step.during[i]);
             }
@@ -180,30 +179,27 @@ impl<'a> Claim<'a> {
         }
     }
 
-    /// After the motion: until a box is found from which the errors come back into it.
+    /// After the motion: until a box is found from which the errors come back into it, or until they cannot be followed.
     fn rest(&mut self, funnel: &mut Funnel) -> Result<(), Open> {
-        let end = funnel.index;
         let period = self.problem.period;
         // What holds for ever holds once the errors have settled, as small as they are then.
-        let settled = libm::ceil(self.out.settle / period).min(end as f64 + LATE);
-        while (funnel.index as f64) < settled {
-            match funnel.step() {
-                Ok(step) => self.take(&step)?,
-                Err(_) => break,
-            }
-        }
-        let step = (0.25 / period).max(1.0) as usize;
+        let settled = libm::ceil(self.out.settle / period).min(funnel.index as f64 + LATE);
+        let mut before = libm::fmax(settled - funnel.index as f64, 0.0) as usize;
+        let between = (0.25 / period).max(1.0) as usize;
         for _ in 0..TRIALS {
-            if self.returns(&funnel.set, funnel.index)? {
-                self.out.valid_until = None;
-                return Ok(());
-            }
-            for _ in 0..step {
+            for _ in 0..before {
                 match funnel.step() {
                     Ok(step) => self.take(&step)?,
-                    Err(_) => break,
+                    Err(_) => {
+                        self.out.valid_until = Some(funnel.index as f64 * period);
+                        return Ok(());
+                    }
                 }
             }
+            if self.returns(&funnel.set, funnel.index)? {
+                return Ok(());
+            }
+            before = between;
         }
         self.out.valid_until = Some(funnel.index as f64 * period);
         Ok(())
@@ -211,26 +207,17 @@ impl<'a> Claim<'a> {
 
     /// Whether some box around `set` holds the errors again after a number of periods at rest from period `index` on.
     fn returns(&mut self, set: &ErrorSet, index: usize) -> Result<bool, Open> {
-        let gains = self.problem.gains;
-        let around: Vec<f64> = set.turned_hull(gains).iter().map(|x| ROOM * x + 1e-13).collect();
-        let n = self.problem.arm.dof();
-        let mut start = ErrorSet::new(&vec![0.0; n], &vec![0.0; n], self.problem.numbers.len());
-        start.add_box(gains, &around);
-        let mut funnel = Funnel::from(self.problem, start, index);
+        let (mut funnel, around) = self.boxed(set, ROOM, index);
         let mut steps = Vec::new();
         for k in 0..RETURN {
             let Ok(step) = funnel.step() else { return Ok(false) };
-            let hull: Vec<f64> = step.end.iter().chain(&step.speed).copied().collect();
-            if self.within(&hull).is_err() {
+            if self.within(&step.hull).is_err() {
                 return Ok(false);
             }
             steps.push(step);
-            if k % 8 == 7 {
-                let back = funnel.set.turned_hull(gains);
-                if back.iter().zip(&around).all(|(back, around)| back <= around) {
-                    steps.iter().for_each(|step| self.count_for_ever(step));
-                    return Ok(true);
-                }
+            if k % 8 == 7 && self.holds(&around, &funnel.set) {
+                steps.iter().for_each(|step| self.count_for_ever(step));
+                return Ok(true);
             }
         }
         Ok(false)
@@ -238,35 +225,44 @@ impl<'a> Claim<'a> {
 
     /// Whether a box around `set`, that at the end of a repetition, `offset` s, holds the errors again at the end of the next.
     fn repeat(&mut self, set: &ErrorSet, offset: f64, periods: usize, room: f64) -> Result<bool, Open> {
-        let (gains, n) = (self.problem.gains, self.problem.arm.dof());
-        let around: Vec<f64> = set.turned_hull(gains).iter().map(|x| room * x + 1e-13).collect();
-        let mut start = ErrorSet::new(&vec![0.0; n], &vec![0.0; n], self.problem.numbers.len());
-        start.add_box(gains, &around);
-        let mut funnel = Funnel::from(self.problem, start, 0);
-        let mut steps = Vec::new();
-        let mut back = Vec::new();
-        for _ in 0..periods {
-            let Ok(step) = funnel.step() else { break };
-            steps.push(Step { time: step.time + offset, ..step });
-            if funnel.index == periods {
-                back = funnel.set.turned_hull(gains);
-            }
-        }
-        let held =
-            back.len() == around.len() && back.iter().zip(&around).all(|(back, around)| back <= around);
+        let (mut funnel, around) = self.boxed(set, room, 0);
         let duration = self.problem.motion.duration();
-        self.out.valid_until = Some(if held { duration } else { offset.min(duration) });
-        if held {
-            for step in &steps {
-                let hull: Vec<f64> = step.end.iter().chain(&step.speed).copied().collect();
-                self.within(&hull)?;
-                self.count_for_ever(step);
+        self.out.valid_until = Some(offset.min(duration));
+        let mut steps = Vec::new();
+        for _ in 0..periods {
+            let Ok(step) = funnel.step() else { return Ok(false) };
+            if self.within(&step.hull).is_err() {
+                return Ok(false);
             }
-            for (end, step) in self.out.end_error.iter_mut().zip(0..n) {
-                *end = steps.iter().map(|during| during.during[step]).fold(0.0, f64::max);
-            }
+            steps.push(Step { time: step.time + offset, ..step });
         }
-        Ok(held)
+        if !self.holds(&around, &funnel.set) {
+            return Ok(false);
+        }
+        self.out.valid_until = Some(duration);
+        for step in &steps {
+            self.count_for_ever(step);
+        }
+        for (i, end) in self.out.end_error.iter_mut().enumerate() {
+            *end = steps.iter().map(|step| step.during[i]).fold(0.0, f64::max);
+        }
+        Ok(true)
+    }
+
+    /// The errors of all (q_e, s) in a box `room` times as large as that around `set`, at the start of period `index`, and its half
+    /// sides.
+    fn boxed(&self, set: &ErrorSet, room: f64, index: usize) -> (Funnel<'a>, Vec<f64>) {
+        let gains = self.problem.gains;
+        let around: Vec<f64> = set.turned_hull(gains).iter().map(|x| room * x + 1e-13).collect();
+        let still = vec![0.0; self.problem.arm.dof()];
+        let mut start = ErrorSet::new(&still, &still, self.problem.numbers.len());
+        start.add_box(gains, &around);
+        (Funnel::from(self.problem, start, index), around)
+    }
+
+    /// Whether `set` lies in the box with the half sides `around`.
+    fn holds(&self, around: &[f64], set: &ErrorSet) -> bool {
+        set.turned_hull(self.problem.gains).iter().zip(around).all(|(x, around)| x <= around)
     }
 
     fn finished(mut self) -> Sampled {
@@ -278,13 +274,18 @@ impl<'a> Claim<'a> {
     }
 }
 
-/// The time in which the slowest error of the loop that is frozen at the start falls to e⁻⁸ of itself, s. An estimate: it says
-/// from when on errors are counted, and the count itself is a bound.
+/// The time in which the slowest error of the loop that is frozen at the start falls to e⁻⁸ of itself, s; the duration of the motion
+/// where none falls. An estimate: it says from when on errors are counted, and the count itself is a bound.
 fn settling(problem: &Problem, funnel: &Funnel) -> f64 {
     let Some(map) = funnel.frozen() else { return problem.motion.duration() };
     let n = map.len();
     let matrix = DMatrix::from_fn(n, n, |i, j| map[i][j]);
     let slowest = matrix.complex_eigenvalues().iter().map(|x| libm::hypot(x.re, x.im)).fold(0.0, f64::max);
-    let rate = -libm::log(slowest) / problem.period;
-    if rate > 0.0 { SETTLED / rate } else { f64::INFINITY }
+    falls(slowest, problem.period).unwrap_or(problem.motion.duration())
+}
+
+/// The time in which an error that is `factor` times as large after each period falls to e⁻⁸ of itself, s; `None` where it does not.
+pub(super) fn falls(factor: f64, period: f64) -> Option<f64> {
+    let time = -SETTLED * period / libm::log(factor);
+    (time > 0.0 && time.is_finite()).then_some(time)
 }

@@ -33,11 +33,10 @@ pub(super) struct Funnel<'a> {
 pub(super) struct Step {
     /// Time at the end of the period, s.
     pub(super) time: f64,
-    /// Bound on |q_e| at any time of the period, and at its end.
+    /// Bound on |q_e| at any time of the period.
     pub(super) during: Vec<f64>,
-    pub(super) end: Vec<f64>,
-    /// Bound on |q̇_e| at its end.
-    pub(super) speed: Vec<f64>,
+    /// Bounds on |q_e|, then on |q̇_e|, at its end.
+    pub(super) hull: Vec<f64>,
     /// Range of the torque that the law asks for at the start of the period.
     pub(super) torque: Vec<[f64; 2]>,
 }
@@ -65,7 +64,7 @@ impl<'a> Funnel<'a> {
     /// The linear map of the errors over the first period of the loop; `None` where D cannot be inverted.
     pub(super) fn frozen(&self) -> Option<Vec<Vec<f64>>> {
         let problem = self.problem;
-        let course = Course::new(problem.motion, self.time(self.index), problem.period, problem.slack);
+        let course = Course::new(problem.motion, self.time(self.index), problem.period, problem.slack());
         let half = vec![1e-3; 2 * problem.arm.dof()];
         Some(self.set.frozen(problem, &Local::new(problem, course, half)?))
     }
@@ -99,26 +98,25 @@ impl<'a> Funnel<'a> {
         Err(Lost::Inertia { time: self.time(self.index) })
     }
 
+    /// Takes `set` where no joint may have left the tube on the way; otherwise all stays as it was.
     fn passed(&mut self, before: &[f64], mut set: ErrorSet, during: During) -> Result<Step, Lost> {
         let n = self.problem.arm.dof();
+        let next = self.index + 1;
+        if next.is_multiple_of(OFTEN) {
+            set.reduce(self.problem.gains);
+        }
+        let hull = set.hull();
+        let bent = 0.125 * self.problem.period * self.problem.period;
+        let most = |i: usize| before[i].max(hull[i]) + bent * during.acceleration[i];
+        let most: Vec<f64> = (0..n).map(most).collect();
+        if let Some(joint) = (0..n).find(|&i| most[i].is_nan() || most[i] > self.problem.tube[i]) {
+            return Err(Lost::Tube { joint, time: self.time(next) });
+        }
         if !self.ready.last().is_some_and(|local| local.course.is_still()) {
             self.ready.pop();
         }
-        self.index += 1;
-        if self.index.is_multiple_of(OFTEN) {
-            set.reduce(self.problem.gains);
-        }
-        let after = set.hull();
-        let bent = 0.125 * self.problem.period * self.problem.period;
-        let most = |i: usize| before[i].max(after[i]) + bent * during.acceleration[i];
-        let most: Vec<f64> = (0..n).map(most).collect();
-        self.set = set;
-        self.guess = during.acceleration;
-        if let Some(joint) = (0..n).find(|&i| most[i].is_nan() || most[i] > self.problem.tube[i]) {
-            return Err(Lost::Tube { joint, time: self.time(self.index) });
-        }
-        let (end, speed) = (after[..n].to_vec(), after[n..].to_vec());
-        Ok(Step { time: self.time(self.index), during: most, end, speed, torque: during.torque })
+        (self.index, self.set, self.guess) = (next, set, during.acceleration);
+        Ok(Step { time: self.time(next), during: most, hull, torque: during.torque })
     }
 
     /// Encloses the dynamics of the periods that come next, for displacements a few times `x`; the last one is the next.
@@ -127,7 +125,7 @@ impl<'a> Funnel<'a> {
         let first = self.index;
         let courses: Vec<Course> = {
             let made =
-                |k: usize| Course::new(problem.motion, self.time(first + k), problem.period, problem.slack);
+                |k: usize| Course::new(problem.motion, self.time(first + k), problem.period, problem.slack());
             let mut courses: Vec<Course> = (0..TOGETHER).map(made).collect();
             if let Some(still) = courses.iter().position(Course::is_still) {
                 courses.truncate(still + 1);

@@ -11,6 +11,8 @@ mod repetition;
 mod sampled;
 mod set;
 mod statement;
+#[cfg(test)]
+mod tests;
 
 pub use follow::Sampled;
 pub use sampled::{SampledLoop, Wrong};

@@ -15,7 +15,7 @@ use super::problem::Problem;
 use super::set::ErrorSet;
 use crate::numerics::linalg::weighed;
 use load::Load;
-use numbers::{ROUNDED, UP, point, product};
+use numbers::{ROUNDED, UP, product};
 use sample::{Sample, control};
 use switching::switched;
 
@@ -88,9 +88,8 @@ impl Sample<'_> {
             let turned = self.turned(&within, &load, &by_slopes, &by_numbers)?;
             let next: Vec<f64> = (0..n)
                 .map(|i| {
-                    let late = (local.course.span.qdd[i] - point(local.course.target.qdd[i])).magnitude();
                     let pushed = straight[i] + weighed(&local.inverse[i], &load.most);
-                    UP * (pushed + weighed(&local.w[i], &turned) + late + self.rounded(i))
+                    UP * (pushed + weighed(&local.w[i], &turned) + local.course.late[i] + self.rounded(i))
                 })
                 .collect();
             Ok((next, load, turned))

@@ -1,5 +1,6 @@
 //! The sampled loop whose errors are followed.
 
+use super::repetition::Repetition;
 use crate::arm::{Arm, Uncertainty};
 use crate::bounds::Bounds;
 use crate::control::{Design, Gains, RobustGain};
@@ -32,8 +33,8 @@ pub(super) struct Problem<'a> {
     /// Coulomb friction that the command compensates, forwards and backwards.
     pub(super) compensated: &'a [[f64; 2]],
     pub(super) period: f64,
-    /// By how much a repetition of the motion may be early or late, s.
-    pub(super) slack: f64,
+    /// Whether and how the motion repeats itself.
+    pub(super) repetition: Option<Repetition>,
     /// Half the sides of the box of the initial errors of position and of speed.
     pub(super) initial: [&'a [f64]; 2],
     /// Half the width of the domain around the motion.
@@ -69,6 +70,13 @@ pub(super) struct Magnitudes {
     pub(super) reference_acceleration: Vec<f64>,
     pub(super) velocity_error: Vec<f64>,
     pub(super) s: Vec<f64>,
+}
+
+impl Problem<'_> {
+    /// By how much a sinusoid of a repetition may be early or late, s.
+    pub(super) fn slack(&self) -> f64 {
+        self.repetition.as_ref().map_or(0.0, |repetition| repetition.slack)
+    }
 }
 
 impl Number {

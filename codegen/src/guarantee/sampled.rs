@@ -57,8 +57,9 @@ impl SampledLoop<'_> {
         let mut declared: Vec<f64> = (0..n).map(|i| 1.2 * position[i] + 0.02 * self.tube[i]).collect();
         let pulled: Vec<f64> = p12.iter().map(|row| weighed(row, &declared)).collect();
         declared.extend(velocity.iter().zip(pulled).map(|(velocity, pulled)| 1.2 * velocity + 2.0 * pulled));
+        let repetition = Repetition::of(self.motion, self.design.period);
         for _ in 0..ROUNDS {
-            let problem = self.problem(&declared);
+            let problem = self.problem(&declared, &repetition);
             match follow(&problem, &declared, self.settle) {
                 Ok(sampled) => return Ok(sampled),
                 Err(Open::Wider(hull)) => {
@@ -82,7 +83,7 @@ impl SampledLoop<'_> {
         )])
     }
 
-    fn problem<'b>(&'b self, declared: &[f64]) -> Problem<'b> {
+    fn problem<'b>(&'b self, declared: &[f64], repetition: &Option<Repetition>) -> Problem<'b> {
         let design = self.design;
         let n = self.arm.dof();
         let p12 = &design.gains.p12;
@@ -113,7 +114,7 @@ impl SampledLoop<'_> {
             switching: Switching::of(design, self.bounds),
             compensated: &design.coulomb,
             period: design.period,
-            slack: Repetition::slack(self.motion, design.period),
+            repetition: repetition.clone(),
             initial: self.initial,
             tube: self.tube.to_vec(),
             torque_error: wrong.torque,

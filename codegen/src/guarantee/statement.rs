@@ -40,6 +40,11 @@ pub struct Statement {
 }
 
 impl Statement {
+    /// The bounds of the sampled loop, where they are promised: not where a torque limit may cut in.
+    pub fn promised(&self) -> Option<&Sampled> {
+        self.sampled.as_ref().filter(|_| self.kind == Kind::Sampled)
+    }
+
     /// Of what is proved of the sampled loop of `arm`, `None` without a motion, and of the continuous one.
     pub fn new(
         arm: &Arm,

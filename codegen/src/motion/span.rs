@@ -54,6 +54,22 @@ impl Motion {
         Span { q: of(0), qd: of(1), qdd: of(2), jerk: of(3) }
     }
 
+    /// The same where each sinusoid may be early or late by up to `slack`, s.
+    pub fn span_late(&self, t0: f64, t1: f64, slack: f64) -> Span {
+        let mut span = self.span(t0, t1);
+        if let Self::Sinusoids { terms, .. } = self {
+            let lists = [&mut span.q, &mut span.qd, &mut span.qdd, &mut span.jerk];
+            for (k, list) in (1..).zip(lists) {
+                for (range, terms) in list.iter_mut().zip(terms) {
+                    let each = terms.iter().map(|s| s.amplitude.abs() * power(s.frequency.abs(), k));
+                    let off = slack * each.sum::<f64>() * (1.0 + ROUNDING);
+                    *range = *range + Interval { low: -off, high: off };
+                }
+            }
+        }
+        span
+    }
+
     /// A time between `t0` and `t1` at which to cut: the middle, or the knot of a spline that is nearest to it.
     pub fn cut(&self, t0: f64, t1: f64) -> f64 {
         let middle = 0.5 * (t0 + t1);

@@ -137,10 +137,7 @@ impl<'a> Judge<'a> {
             let reason = "the errors of a law that learns are not followed from sample to sample";
             return Err(vec![reason.to_string()]);
         }
-        // Over a workspace the bounds hold as far as its limits.
-        let tube = checked.domain.width().unwrap_or_else(|| {
-            room(&checked.domain, Some(motion), &checked.built.arm).iter().map(|room| room.max(0.0)).collect()
-        });
+        let Some(tube) = self.tube() else { return Err(Vec::new()) };
         let error = ModelError { lagrangian: &self.own, ..self.certified.error() };
         let built = &checked.built;
         SampledLoop {
@@ -155,6 +152,14 @@ impl<'a> Judge<'a> {
             wrong: &|errors| self.wrong(&error, design, errors),
         }
         .judge()
+    }
+
+    /// How far the joints may be off the motion, by joint, rad or m: over a workspace as far as its limits. `None` without a motion.
+    pub(super) fn tube(&self) -> Option<Vec<f64>> {
+        let checked = &self.certified.checked;
+        let motion = checked.motion.as_deref()?;
+        let room = || room(&checked.domain, Some(motion), &checked.built.arm);
+        Some(checked.domain.width().unwrap_or_else(|| room().iter().map(|room| room.max(0.0)).collect()))
     }
 
     /// What the emitted step is wrong by against the arm as specified.

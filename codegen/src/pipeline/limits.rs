@@ -25,8 +25,8 @@ impl Generation {
         let (design, rounding) = (self.design()?, self.rounding()?);
         let judge = Judge::new(&self.designed.certified, design, rounding);
         let initial = &self.control()?.initial_error;
-        let tube = self.domain().width()?;
-        self.statement()?.sampled.as_ref()?;
+        self.statement()?.promised()?;
+        let tube = judge.tube()?;
         let longest = (LONGEST * design.guarantee.period_max).max(design.period);
         let period = largest(design.period, longest, |period| {
             judge.errors_from(&Design { period, ..design.clone() }, initial).is_ok()

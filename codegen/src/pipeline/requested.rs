@@ -5,7 +5,7 @@ use super::certified::Certified;
 use super::designed::{Designed, Judged, with_problem};
 use crate::bounds::{Effort, printed_up};
 use crate::check::{Control, GainRequest, GainSource, Tuning};
-use crate::control::proposals;
+use crate::control::{proposals, two_digits};
 use crate::error::Error;
 use crate::guarantee::{Kind, Sampled};
 use crate::progress::Silent;
@@ -104,11 +104,6 @@ fn attempt(
 fn inside(request: &GainRequest, sampled: &Sampled) -> bool {
     let within = |tube: &Vec<f64>| sampled.reach.iter().zip(tube).all(|(reach, tube)| reach <= tube);
     request.tube.as_ref().is_none_or(within)
-}
-
-/// Cut to two significant digits: what is told is what was tried.
-fn two_digits(x: f64) -> f64 {
-    format!("{:.1e}", x * 0.995).parse().unwrap_or(x)
 }
 
 /// Gains that may meet `request`.

@@ -4,6 +4,7 @@
 
 mod array;
 mod chatter;
+mod controlled;
 #[cfg(test)]
 pub(crate) mod example;
 mod metrics;
@@ -31,13 +32,13 @@ pub use run::{Run, Trace};
 pub use step_law::MOST_LEARNT;
 
 use self::array::{matrix, vector};
+use self::controlled::Controlled;
 use self::reference::MotionReference;
 use self::run::Rig;
-use self::step_law::StepLaw;
 use crate::arm::Arm;
 use crate::bounds::Bounds;
 use crate::check::InitialError;
-use crate::control::{Design, StepModel};
+use crate::control::Design;
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::motion::Motion;
@@ -45,7 +46,6 @@ use crate::number::scientific;
 use crate::pipeline::Generation;
 use crate::spec::{LawSpec, OnFaultSpec, ScalarSpec, SimulationSpec};
 use crate::torque::Regressor;
-use crate::trig::Angle;
 
 /// Runge–Kutta steps a control period, where the specification names none.
 const SUBSTEPS: usize = 10;
@@ -189,45 +189,6 @@ fn law<const N: usize>(scenario: &Scenario, plant: &Arm) -> Result<Run, Error> {
         ScalarSpec::F32 => Controlled::<f32, N>::new(scenario)?.run(&rig),
     };
     run.map_err(|error| refused(scenario, &error))
-}
-
-/// What a controller is made of.
-#[derive(Clone)]
-struct Controlled<'a, T, const N: usize> {
-    /// The emitted model.
-    model: GraphModel<'a, N>,
-    /// The emitted step.
-    law: StepLaw<T>,
-    /// Number of parameters that the law learns.
-    learnt: usize,
-}
-
-impl<'a, T: Angle, const N: usize> Controlled<'a, T, N> {
-    fn new(scenario: &Scenario<'a>) -> Result<Self, Error> {
-        let Scenario { file, arm, design, .. } = *scenario;
-        let model = GraphModel::<N>::new(scenario.code, scenario.bounds, arm)?;
-        let viscous: Vec<f64> = arm.joints.iter().map(|joint| joint.viscous_friction).collect();
-        let step = design.step(&StepModel {
-            code: scenario.code,
-            regressor: scenario.regressor,
-            bounds: scenario.bounds,
-            viscous: &viscous,
-        });
-        let adaptation = design.adaptation.as_ref();
-        let learnt = adaptation.map_or(0, |adaptation| adaptation.rate.len());
-        if learnt > MOST_LEARNT {
-            let help = "learn the `uncertain` parameters";
-            let problem = format!("are {learnt}; a simulation bears {MOST_LEARNT}");
-            return Err(Error::input(file, "control.adaptation.parameters", problem, help));
-        }
-        Ok(Self { model, law: StepLaw::new(&step, adaptation), learnt })
-    }
-}
-
-impl<T: Angle, const N: usize> Controlled<'_, T, N> {
-    fn run(self, rig: &Rig<N>) -> Result<Run, ConfigError> {
-        rig.run(self.model, self.law, self.learnt)
-    }
 }
 
 fn refused(scenario: &Scenario, error: &ConfigError) -> Error {

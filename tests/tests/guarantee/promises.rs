@@ -38,6 +38,10 @@ fn a_torque_limit_that_a_run_may_reach_voids_it() {
     let limit = 0.5 * (seen + certified);
     let cut = limited(limit);
     assert_eq!(cut.kind, Kind::None);
+    assert!(
+        cut.promised().is_none() && cut.sampled.is_some(),
+        "no bound is shown that a cut torque may break"
+    );
     let reason = cut.reasons.iter().find(|reason| reason.starts_with(&format!("joint {} ", joint + 1)));
     let reason = reason.unwrap_or_else(|| panic!("{:?}", cut.reasons));
     assert!(reason.contains(" at t = ") && reason.contains(&format!("limit of {limit}")), "{reason}");

@@ -1,9 +1,9 @@
 //! Puts it into words.
 
 use super::{ControlView, GuaranteeView, Inspection, PromiseView};
-use crate::bounds::{printed_down, printed_up};
+use crate::bounds::{printed_above, printed_below, printed_down, printed_up};
 use crate::emit::{domain_in_words, met_in_words, rates_in_words, torque_in_words};
-use crate::number::{decimal, short};
+use crate::number::short;
 use crate::pipeline::Generation;
 use crate::spec::MatrixSpec;
 
@@ -127,18 +127,21 @@ fn guarantee(promised: &PromiseView) -> Vec<String> {
     };
     bound("largest error at any time", &promised.reach);
     if let Some(settle) = promised.settle {
-        bound(&format!("largest error from {} s on", decimal(settle, 3)), &promised.settled_error);
+        bound(&format!("largest error from {} s on", printed_up(settle)), &promised.settled_error);
     }
     bound("largest error at the end of the motion", &promised.end_error);
     bound("largest initial error", &promised.initial_error_max);
     if promised.reach.is_some() {
-        let until =
-            promised.valid_until.map_or("for ever".to_string(), |end| format!("until {} s", short(end)));
+        let until = promised
+            .valid_until
+            .map_or("for ever".to_string(), |end| format!("until {} s", printed_down(end)));
         lines.push(format!("  holds {until}"));
     }
     if let (Some(low), Some(high)) = (&promised.torque_min, &promised.torque_max) {
-        let shown = |x: &[f64]| x.iter().map(|x| short(*x)).collect::<Vec<_>>().join(", ");
-        lines.push(format!("  torque asked for: from ({}) to ({})", shown(low), shown(high)));
+        let shown =
+            |x: &[f64], of: fn(f64) -> String| x.iter().map(|x| of(*x)).collect::<Vec<_>>().join(", ");
+        let (low, high) = (shown(low, printed_below), shown(high, printed_above));
+        lines.push(format!("  torque asked for: from ({low}) to ({high})"));
     }
     if let Some(period) = promised.period_max {
         lines.push(format!("  longest period: {} s", printed_down(period)));

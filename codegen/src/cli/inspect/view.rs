@@ -92,9 +92,11 @@ pub(super) fn view(generation: &Generation, size: usize, limits: Option<Limits>)
 
 fn promise(generation: &Generation, limits: Option<Limits>) -> Option<PromiseView<'_>> {
     let statement = generation.statement()?;
-    let sampled = statement.sampled.as_ref();
+    let sampled = statement.promised();
     let up = |x: &[f64]| -> Vec<f64> { x.iter().map(|x| six_digits_up(*x)).collect() };
-    let [low, high] = sampled.map(Sampled::torque_range).map_or([None, None], |range| range.map(Some));
+    // The torque that is asked for shows what is missing where limits are too low.
+    let [low, high] =
+        statement.sampled.as_ref().map(Sampled::torque_range).map_or([None, None], |range| range.map(Some));
     let (period_max, initial_error_max) = limits.map(|limits| (limits.period, limits.initial_error)).unzip();
     Some(PromiseView {
         kind: statement.kind.name(),

@@ -87,7 +87,7 @@ impl Sample<'_> {
             let others = self.wrong[i] + half + most + lagged + middle.abs();
             load.others.push(UP * others);
             load.most.push(UP * (others + numbers));
-            load.changing.push(UP * (2.0 * half + most));
+            load.changing.push(UP * (2.0 * half + most + ends(local.lag.end[i])));
             load.middle.push(middle);
         }
         load
@@ -97,9 +97,7 @@ impl Sample<'_> {
     fn change(&self, arm: &Enclosure, acceleration: &[f64], within: &Within, own: bool) -> Vec<f64> {
         let Self { problem, local, n, .. } = *self;
         let Within { errors, away, lambda, .. } = within;
-        let late: Vec<f64> = (0..n)
-            .map(|j| (local.course.span.qdd[j] - point(local.course.target.qdd[j])).magnitude())
-            .collect();
+        let late = &local.course.late;
         let moved = |i: usize, j: usize| arm.coriolis.change(i * n + j, away, *lambda);
         let size = |i: usize, j: usize| arm.coriolis.centre[i * n + j].abs() + moved(i, j);
         let row = |i: usize| {

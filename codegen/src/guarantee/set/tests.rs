@@ -1,0 +1,51 @@
+use super::*;
+use crate::numerics::low_discrepancy::LowDiscrepancy;
+
+/// Two joints with more generators than are kept.
+fn crowded() -> ErrorSet {
+    let mut set = ErrorSet::new(&[0.1, 0.2], &[0.3, 0.0], 1);
+    set.centre = vec![0.01, -0.02, 0.03, 0.04];
+    set.shared[0] = vec![0.02, 0.01, -0.1, 0.2];
+    let points = LowDiscrepancy::new(4);
+    for index in 0..600 {
+        let size = 0.1 / (1.0 + index as f64);
+        set.add(points.point(index).into_iter().map(|x| size * (2.0 * x - 1.0)));
+    }
+    set
+}
+
+#[test]
+fn boxed_generators_hold_all_members() {
+    let n = 2;
+    let gains = Gains {
+        p12: vec![vec![5.0, 0.5], vec![0.5, 3.0]],
+        damping: vec![vec![1.0, 0.0], vec![0.0, 1.0]],
+        pqq: vec![vec![1.0, 0.0], vec![0.0, 1.0]],
+    };
+    let (before, mut after) = (crowded(), crowded());
+    after.reduce(&gains);
+    assert!(after.generators() <= 2 * KEPT * n && before.generators() > 600);
+    // The support of the set in many directions: that of all members is no larger afterwards.
+    let points = LowDiscrepancy::new(4);
+    for index in 0..2000 {
+        let map = vec![points.point(index).into_iter().map(|x| 2.0 * x - 1.0).collect::<Vec<f64>>()];
+        let [exact, boxed] = [&before, &after].map(|set| set.image(&map).sizes()[0]);
+        assert!(boxed >= exact * (1.0 - 1e-12), "{boxed} {exact}");
+    }
+    // Along the axes of the box nothing is lost.
+    for (exact, boxed) in before.turned_hull(&gains).iter().zip(after.turned_hull(&gains)) {
+        assert!((exact - boxed).abs() <= 1e-9 * exact, "{boxed} {exact}");
+    }
+}
+
+#[test]
+fn a_map_and_its_image_agree() {
+    let map: Vec<Vec<f64>> =
+        vec![vec![1.0, 0.1, 0.01, 0.0], vec![0.0, 0.9, 0.0, 0.01], vec![-3.0, 0.0, 0.5, 0.2], vec![0.0; 4]];
+    let mut set = crowded();
+    let sizes = set.image(&map).sizes();
+    set.mapped(&map);
+    for (size, own) in sizes.iter().zip(set.hull()) {
+        assert!((size - own).abs() <= 1e-11 * (1.0 + size), "{size} {own}");
+    }
+}

@@ -1,0 +1,101 @@
+//! Where the errors of a loop can be followed no further.
+
+use super::follow::{Open, falls, follow};
+use super::funnel::{Funnel, Lost};
+use super::problem::{Problem, Switching};
+use crate::arm::Arm;
+use crate::control::Gains;
+use crate::motion::Motion;
+use crate::simulate::example::three_link;
+
+const ZERO: [f64; 3] = [0.0; 3];
+const START: [f64; 3] = [0.002; 3];
+const WIDE: [f64; 6] = [1.0, 1.0, 1.0, 10.0, 10.0, 10.0];
+
+fn diagonal(x: [f64; 3]) -> Vec<Vec<f64>> {
+    (0..3).map(|i| (0..3).map(|j| if i == j { x[i] } else { 0.0 }).collect()).collect()
+}
+
+/// The three-link arm at rest for 0.05 s under law (16), whose torque is off by up to `torque_error`.
+fn judged<T>(damping: f64, torque_error: f64, f: impl FnOnce(&Problem) -> T) -> T {
+    let arm: Arm = three_link();
+    let place = vec![0.2, 0.5, -1.4];
+    let motion = Motion::Quintic { from: place.clone(), to: place, duration: 0.05 };
+    let gains = Gains {
+        p12: diagonal([5.0; 3]),
+        damping: diagonal([2.0 * damping, 2.0 * damping, damping]),
+        pqq: diagonal([2.5 * damping, 2.5 * damping, 1.25 * damping]),
+    };
+    f(&Problem {
+        arm: &arm,
+        numbers: Vec::new(),
+        viscous: vec![0.0; 3],
+        motion: &motion,
+        gains: &gains,
+        damping: gains.damping.clone(),
+        switching: Switching::None,
+        compensated: &[[0.0; 2]; 3],
+        period: 0.001,
+        repetition: None,
+        initial: [&START, &ZERO],
+        tube: vec![0.01; 3],
+        torque_error: vec![torque_error; 3],
+        s_error: vec![0.0; 3],
+    })
+}
+
+#[test]
+fn a_loop_that_settles_is_held_for_ever() {
+    judged(100.0, 0.0, |problem| {
+        let sampled = follow(problem, &WIDE, Some(1.5)).expect("the errors die away");
+        assert_eq!(sampled.valid_until, None);
+        let settled = sampled.settled_error.expect("for ever is long enough");
+        assert!(settled.iter().zip(&sampled.reach).all(|(settled, reach)| settled < reach), "{settled:?}");
+    });
+}
+
+#[test]
+fn a_claim_ends_before_the_period_in_which_errors_may_leave_the_tube() {
+    // The torque error pushes the joints out of the tube once the motion has ended.
+    judged(100.0, 12.0, |problem| {
+        let sampled = follow(problem, &WIDE, Some(1.5)).expect("the motion itself is followed");
+        let end = sampled.valid_until.expect("not for ever");
+        let (last, errors) = sampled.course.last().expect("periods");
+        assert!(end >= 0.05 && end == *last, "{end} {last}");
+        assert!(errors.iter().chain(&sampled.reach).all(|error| *error <= 0.01), "{errors:?}");
+        assert_eq!(sampled.settled_error, None, "the claim ends before");
+        // What comes next is lost, and stays lost however often it is tried.
+        let mut funnel = Funnel::new(problem);
+        while funnel.step().is_ok() {}
+        let (index, hull) = (funnel.index, funnel.set.hull());
+        assert!((index as f64 * 0.001 - end).abs() < 1e-12);
+        for _ in 0..3 {
+            assert!(matches!(funnel.step(), Err(Lost::Tube { .. })));
+            assert_eq!((funnel.index, funnel.set.hull()), (index, hull.clone()));
+        }
+    });
+}
+
+#[test]
+fn a_loop_that_is_lost_during_the_motion_is_not_claimed() {
+    judged(100.0, 400.0, |problem| {
+        assert!(matches!(follow(problem, &WIDE, None), Err(Open::Lost(Lost::Tube { .. }))));
+    });
+}
+
+#[test]
+fn errors_beyond_the_declared_ones_are_told() {
+    judged(100.0, 0.0, |problem| {
+        let narrow = [0.001; 6];
+        assert!(matches!(follow(problem, &narrow, None), Err(Open::Wider(hull)) if hull[0] >= 0.002));
+    });
+}
+
+#[test]
+fn only_errors_that_fall_have_a_time_to_settle() {
+    let time = falls(libm::exp(-0.004), 0.001).expect("they fall");
+    assert!((time - 2.0).abs() < 1e-9, "{time}");
+    for factor in [1.0, 1.5, f64::INFINITY, f64::NAN] {
+        assert_eq!(falls(factor, 0.001), None, "{factor}");
+    }
+}
