@@ -214,7 +214,7 @@ impl Loop {
         let error = self.model_error(k, q, qd);
         for i in 0..self.n {
             found.model_error = found.model_error.max(error[i].abs() / self.push[i]);
-            if !(error[i].abs() <= self.push[i] * (1.0 + 1e-9)) {
+            if error[i].is_nan() || error[i].abs() > self.push[i] * (1.0 + 1e-9) {
                 found.broken.get_or_insert_with(|| {
                     format!("the model is wrong by {} at joint {}, period {k}", error[i], i + 1)
                 });
@@ -244,7 +244,7 @@ impl Loop {
             if let (true, Some(late)) = (settled, &promised.settled_error) {
                 bound = bound.min(late[i]);
             }
-            if !(error <= bound + OWN) {
+            if error.is_nan() || error > bound + OWN {
                 found.broken.get_or_insert_with(|| {
                     format!("|q_e| of joint {} is {error} at t = {t} s, more than {bound}", i + 1)
                 });
@@ -257,7 +257,7 @@ impl Loop {
             let error = (q[i] - self.desired[self.end].q[i]).abs();
             found.end[i] = error;
             let bound = self.promised.end_error[i];
-            if !(error <= bound + OWN) {
+            if error.is_nan() || error > bound + OWN {
                 found.broken.get_or_insert_with(|| {
                     format!("|q_e| of joint {} is {error} at the end, more than {bound}", i + 1)
                 });
