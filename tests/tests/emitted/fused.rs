@@ -246,7 +246,7 @@ fn a_fused_module_says_what_it_lacks() {
 #[test]
 fn no_c_library_is_fused() {
     let refused = edited("arm3_exact", |spec| spec["emit"] = json!({ "fma": true, "c_api": true }));
-    let message = refused.err().expect("two choices that do not go together");
+    let message = refused.expect_err("two choices that do not go together");
     assert!(message.contains("emit.fma") && message.contains("do not link into one program"), "{message}");
 }
 
