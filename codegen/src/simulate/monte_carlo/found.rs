@@ -11,7 +11,7 @@ pub struct MonteCarlo {
     pub runs: usize,
     /// Largest |q_e| at any control instant, rad or m.
     pub reach: Vec<f64>,
-    /// Largest |q_e| from [`MonteCarlo::settle`] on, rad or m.
+    /// Largest |q_e| from the first of [`MonteCarlo::times`] on, rad or m.
     pub settled_error: Vec<f64>,
     /// Largest |q_e| where the motion ends, rad or m.
     pub end_error: Vec<f64>,
