@@ -35,6 +35,8 @@ mod emit;
 mod error;
 mod graph;
 mod guarantee;
+#[cfg(feature = "cli")]
+mod init;
 mod lagrangian;
 pub mod load;
 mod model;

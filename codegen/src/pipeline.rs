@@ -61,8 +61,13 @@ enum Wanted {
 /// [`Error::Input`] with all faults of the specification and the files that it names.
 fn run(loaded: Loaded, extent: Extent, means: Means) -> Result<Generation, Error> {
     threads::check()?;
-    let checked = checked(loaded.clone(), extent).map_err(|error| expanded::with_count(error, &loaded))?;
-    Ok(Generation::concluded(chosen(checked, means)?, means))
+    let made = || {
+        let checked =
+            checked(loaded.clone(), extent).map_err(|error| expanded::with_count(error, &loaded))?;
+        chosen(checked, means)
+    };
+    let designed = made().map_err(|error| error.pointing_into_files(&loaded))?;
+    Ok(Generation::concluded(designed, means))
 }
 
 /// The controller about the model that the specification asks for, or about the exact one where that leaves the choice

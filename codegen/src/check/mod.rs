@@ -48,8 +48,8 @@ pub fn prepare(path: &Path) -> Result<Checked, Error> {
 /// # Errors
 /// [`Error::Input`] where the file cannot be read, else with every fault.
 pub fn read(path: &Path) -> Result<Loaded, Error> {
-    let Draft { loaded, mut faults, lost } = draft(path)?;
-    let Some(loaded) = loaded else { return Err(faults.into_error()) };
+    let Draft { loaded, mut faults, lost, text } = draft(path)?;
+    let Some(loaded) = loaded else { return Err(faults.into_error().pointing_into(path, &text)) };
     if faults.is_empty() {
         return Ok(loaded);
     }
@@ -63,7 +63,7 @@ pub fn read(path: &Path) -> Result<Loaded, Error> {
         !(gone(section) || gone("model") && together.contains(&fault.field.as_str()))
     };
     faults.extend(values.list().iter().filter(known).cloned());
-    Err(faults.into_error())
+    Err(faults.into_error().pointing_into_files(&loaded))
 }
 
 /// Checks a specification that is read already.

@@ -7,6 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle};
 use std::time::Duration;
 
+use super::settings::quiet;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::bounds::Effort;
@@ -65,7 +66,7 @@ struct Shown {
 impl Bars {
     /// Waits for stages.
     pub(super) fn new() -> Self {
-        Self { shown: stderr().is_terminal().then(Shown::new) }
+        Self { shown: (stderr().is_terminal() && !quiet()).then(Shown::new) }
     }
 }
 

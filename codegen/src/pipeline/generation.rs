@@ -163,6 +163,12 @@ impl Generation {
         &self.checked().loaded.spec
     }
 
+    /// The specification as it was read, with the files that it names.
+    #[cfg(feature = "cli")]
+    pub(crate) fn loaded(&self) -> &Loaded {
+        &self.checked().loaded
+    }
+
     /// The file that the specification was read from.
     pub fn path(&self) -> &Path {
         &self.checked().loaded.path

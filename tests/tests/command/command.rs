@@ -2,5 +2,7 @@
 
 mod evaluate;
 mod generate;
+mod init;
+mod manners;
 mod progress;
 mod show;
