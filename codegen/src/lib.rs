@@ -23,6 +23,8 @@
 mod arm;
 mod bounds;
 mod cache;
+#[cfg(feature = "cli")]
+mod changes;
 mod check;
 mod choose;
 #[cfg(feature = "cli")]
@@ -81,7 +83,7 @@ pub mod internals {
         output pipeline progress reduction text torque trig
     }
     #[cfg(feature = "cli")]
-    open! { cli report reproduce sizes }
+    open! { changes cli report reproduce sizes }
     #[cfg(any(feature = "simulate", test))]
     open! { simulate }
 }

@@ -1,6 +1,7 @@
 //! The command line: one file a subcommand, each a thin shell over the library.
 
 mod demo;
+mod diff;
 mod evaluate;
 mod generate;
 mod inspect;
@@ -8,6 +9,7 @@ mod print;
 mod progress;
 mod reproduce;
 mod simulate;
+mod sweep;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -36,6 +38,8 @@ enum Command {
     Evaluate(evaluate::Evaluate),
     Generate(generate::Generate),
     Simulate(simulate::Simulate),
+    Sweep(sweep::Sweep),
+    Diff(diff::Diff),
     Reproduce(reproduce::Reproduce),
     /// Prints the JSON Schema of specification files.
     Schema,
@@ -47,17 +51,23 @@ pub fn run() -> ExitCode {
         Ok(cli) => cli.command,
         Err(error) => return print::usage(error),
     };
+    let mut failed = false;
     let outcome = match command {
         None => demo::run(),
         Some(Command::Inspect(command)) => command.run(),
         Some(Command::Evaluate(command)) => command.run(),
         Some(Command::Generate(command)) => command.run(),
         Some(Command::Simulate(command)) => command.run(),
+        Some(Command::Sweep(command)) => command.run(),
+        Some(Command::Diff(command)) => command.run().map(|(text, differs)| {
+            failed = differs;
+            text
+        }),
         Some(Command::Reproduce(command)) => command.run(),
         Some(Command::Schema) => crate::load::schema().and_then(json),
     };
     match outcome.and_then(|text| print::result(&text)) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => ExitCode::from(u8::from(failed)),
         Err(error) => {
             // Where even this cannot be said, the exit code says it.
             let _ = writeln!(std::io::stderr().lock(), "{error}");
