@@ -41,6 +41,8 @@ enum Page {
     Evaluate,
     Generate,
     Simulate,
+    Sweep,
+    Diff,
     Reproduce,
     Schema,
 }

@@ -1,6 +1,7 @@
 //! The command line: one file a subcommand, each a thin shell over the library.
 
 mod demo;
+mod diff;
 mod errors;
 mod evaluate;
 mod generate;
@@ -12,6 +13,7 @@ mod progress;
 mod reproduce;
 mod settings;
 mod simulate;
+mod sweep;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -44,6 +46,8 @@ enum Command {
     Evaluate(evaluate::Evaluate),
     Generate(generate::Generate),
     Simulate(simulate::Simulate),
+    Sweep(sweep::Sweep),
+    Diff(diff::Diff),
     Reproduce(reproduce::Reproduce),
     /// Prints the JSON Schema of specification files.
     #[command(after_help = "Example: gramforge schema > gramforge.schema.json")]
@@ -52,19 +56,38 @@ enum Command {
     Man(manual::Man),
 }
 
+/// What a command ends with.
+struct Done {
+    /// What is printed.
+    text: String,
+    /// Exit code.
+    code: u8,
+}
+
+impl From<String> for Done {
+    fn from(text: String) -> Self {
+        Self { text, code: 0 }
+    }
+}
+
 impl Command {
-    fn run(&self) -> Result<String, Error> {
-        match self {
+    fn run(&self) -> Result<Done, Error> {
+        let text = match self {
             Command::Init(command) => command.run(),
             Command::Inspect(command) => command.run(),
             Command::Evaluate(command) => command.run(),
             Command::Generate(command) => command.run(),
             Command::Simulate(command) => command.run(),
+            Command::Sweep(command) => command.run(),
+            Command::Diff(command) => {
+                return command.run().map(|(text, differs)| Done { text, code: u8::from(differs) });
+            }
             Command::Reproduce(command) => command.run(),
             Command::Schema => crate::load::schema().and_then(json),
             Command::Completions(command) => command.run(),
             Command::Man(command) => command.run(),
-        }
+        };
+        text.map(Done::from)
     }
 
     /// Whether the result, and then faults too, is wanted as JSON.
@@ -75,6 +98,8 @@ impl Command {
             Command::Evaluate(command) => command.json,
             Command::Generate(command) => command.json,
             Command::Simulate(command) => command.json,
+            Command::Sweep(command) => command.json,
+            Command::Diff(command) => command.json,
             Command::Reproduce(command) => command.json,
         }
     }
@@ -87,11 +112,12 @@ pub fn run() -> ExitCode {
         Err(error) => return print::usage(error),
     };
     let outcome = settings.set().and_then(|()| match &command {
-        None => demo::run(),
+        None => demo::run().map(Done::from),
         Some(command) => command.run(),
     });
-    match outcome.and_then(|text| print::result(&text)) {
-        Ok(()) => ExitCode::SUCCESS,
+    let outcome = outcome.and_then(|done| print::result(&done.text).map(|()| done.code));
+    match outcome {
+        Ok(code) => ExitCode::from(code),
         Err(error) => {
             if command.is_some_and(|command| command.json()) {
                 // Where it cannot be printed, the text below says what is wrong.

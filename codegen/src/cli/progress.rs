@@ -1,6 +1,6 @@
 //! A bar on standard error while something takes its time.
 
-use std::io::{IsTerminal, stderr};
+use std::io::{IsTerminal, Write, stderr};
 use std::path::Path;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Mutex, PoisonError};
@@ -15,6 +15,7 @@ use crate::check::read;
 use crate::error::Error;
 use crate::pipeline::Generation;
 use crate::progress::Progress;
+use crate::text::escaped;
 
 /// What is over sooner shows no bar.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -67,6 +68,14 @@ impl Bars {
     /// Waits for stages.
     pub(super) fn new() -> Self {
         Self { shown: (stderr().is_terminal() && !quiet()).then(Shown::new) }
+    }
+
+    /// Shows a line above the bar, on a terminal alone.
+    pub(super) fn say(&self, line: &str) {
+        if let Some(shown) = &self.shown {
+            // Where standard error takes nothing, there is nobody to tell.
+            shown.bar.suspend(|| writeln!(stderr().lock(), "{}", escaped(line))).unwrap_or_default();
+        }
     }
 }
 

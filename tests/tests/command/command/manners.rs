@@ -6,8 +6,19 @@ use serde_json::Value;
 
 use crate::common::{committed, finish, gramforge, run, text};
 
-const COMMANDS: [&str; 9] =
-    ["init", "inspect", "evaluate", "generate", "simulate", "reproduce", "schema", "completions", "man"];
+const COMMANDS: [&str; 11] = [
+    "init",
+    "inspect",
+    "evaluate",
+    "generate",
+    "simulate",
+    "sweep",
+    "diff",
+    "reproduce",
+    "schema",
+    "completions",
+    "man",
+];
 
 #[test]
 fn every_command_has_help_with_an_example_and_a_page_of_the_manual() {
@@ -21,7 +32,7 @@ fn every_command_has_help_with_an_example_and_a_page_of_the_manual() {
     }
     let page = run(["man"]).expect(0).stdout;
     assert!(page.contains(".TH gramforge 1"), "{page}");
-    for command in COMMANDS.iter().take(7) {
+    for command in COMMANDS.iter().take(9) {
         assert!(run(["man", command]).expect(0).stdout.contains(".SH SYNOPSIS"), "{command}");
         assert!(page.contains(command), "{command} is not in the manual");
     }
