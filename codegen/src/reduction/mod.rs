@@ -26,7 +26,7 @@ pub use regression::{Learnt, Regression};
 pub use samples::Samples;
 pub use separate::{minimax_each, separate};
 use serde::{Deserialize, Serialize};
-pub use shared::shared;
+pub use shared::{Share, shared, shares};
 pub use simplified_arm::{Expressed, SimplifiedArm, expressed};
 pub use sparse::{CandidateFunction, Group, Sparse, products};
 pub(crate) use uniform::{solved, uniform};
