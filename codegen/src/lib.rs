@@ -52,6 +52,8 @@ mod report;
 mod reproduce;
 #[cfg(any(feature = "simulate", test))]
 mod simulate;
+#[cfg(feature = "cli")]
+mod sizes;
 pub mod spec;
 mod text;
 mod torque;
@@ -79,7 +81,7 @@ pub mod internals {
         output pipeline progress reduction text torque trig
     }
     #[cfg(feature = "cli")]
-    open! { cli report reproduce }
+    open! { cli report reproduce sizes }
     #[cfg(any(feature = "simulate", test))]
     open! { simulate }
 }

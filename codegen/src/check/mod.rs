@@ -30,6 +30,8 @@ pub use tuning::Tuning;
 pub enum Extent {
     /// All of it.
     Whole,
+    /// All of it, but nothing is proved of the sampled loop: that takes seconds.
+    Unjudged,
     /// All but the controller.
     Model,
 }
@@ -77,7 +79,7 @@ pub fn checked(loaded: Loaded, extent: Extent) -> Result<Checked, Error> {
     let defect = |what: &str| Error::Internal(format!("{what} was lost in its check"));
     let built = built.ok_or_else(|| defect("the arm"))?;
     let spec = &loaded.spec;
-    let control = spec.control.as_ref().filter(|_| extent == Extent::Whole);
+    let control = spec.control.as_ref().filter(|_| extent != Extent::Model);
     let along = motion.is_some();
     let dense = |control| Control::new(control, built.arm.dof(), along).ok_or_else(|| defect("`control`"));
     let control = control.map(dense).transpose()?;
@@ -93,7 +95,7 @@ fn examine(loaded: &Loaded, extent: Extent, faults: &mut Diagnostics) -> (Option
     let built = Arm::from_spec(loaded, faults);
     let arm = built.as_ref().map(|b| &b.arm);
     let motion = check(loaded, arm, faults);
-    if let Some(control) = loaded.spec.control.as_ref().filter(|_| extent == Extent::Whole) {
+    if let Some(control) = loaded.spec.control.as_ref().filter(|_| extent != Extent::Model) {
         let joints = joints(&loaded.spec, arm);
         control::check(control, joints, faults);
         gain_request::check(control, &loaded.spec, joints, faults);

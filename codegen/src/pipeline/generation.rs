@@ -5,6 +5,7 @@ use std::path::Path;
 use super::Means;
 use super::certified::Proved;
 use super::designed::Designed;
+use super::judged::switching_gain;
 use crate::arm::{Arm, Uncertainty};
 use crate::bounds::{Bounds, Certificate, Effort, Met, Torque};
 use crate::cache::Cache;
@@ -64,7 +65,7 @@ impl Generation {
     /// # Errors
     /// As [`Generation::from_file`].
     pub fn with_progress(loaded: Loaded, effort: &Effort, progress: &dyn Progress) -> Result<Self, Error> {
-        super::run(loaded, Extent::Whole, Means { effort, progress, cache: None })
+        super::run(loaded, Extent::Whole, Means { effort, progress, cache: None, judges: true })
     }
 
     /// The same with stages that an earlier run of the same program has kept in `cache`.
@@ -74,7 +75,7 @@ impl Generation {
         progress: &dyn Progress,
         cache: Option<&Cache>,
     ) -> Result<Self, Error> {
-        super::run(loaded, Extent::Whole, Means { effort, progress, cache })
+        super::run(loaded, Extent::Whole, Means { effort, progress, cache, judges: true })
     }
 
     /// The model alone: as [`Generation::with_progress`], but without gains, guarantee and the check
@@ -83,7 +84,17 @@ impl Generation {
     /// # Errors
     /// As [`Generation::from_file`].
     pub fn model_only(loaded: Loaded, effort: &Effort, progress: &dyn Progress) -> Result<Self, Error> {
-        super::run(loaded, Extent::Model, Means { effort, progress, cache: None })
+        super::run(loaded, Extent::Model, Means { effort, progress, cache: None, judges: true })
+    }
+
+    /// All but what is promised of the sampled loop along a motion, which takes seconds: as [`Generation::with_progress`], but
+    /// [`Generation::statement`] is `None` there. Where the switching gain is `auto`, the cheaper step is taken; a request for
+    /// gains is answered by a level of V alone, and a guarantee that is required is not looked at.
+    ///
+    /// # Errors
+    /// As [`Generation::from_file`].
+    pub fn unjudged(loaded: Loaded, effort: &Effort, progress: &dyn Progress) -> Result<Self, Error> {
+        super::run(loaded, Extent::Unjudged, Means { effort, progress, cache: None, judges: false })
     }
 
     /// The last stage: what the model's error costs in torque at the rates that the law meets.
@@ -276,6 +287,13 @@ impl Generation {
     /// What the step rounds by in its number type; `None` without a controller.
     pub fn rounding(&self) -> Option<&StepRounding> {
         self.designed.rounding.as_ref()
+    }
+
+    /// The switching gain by joint, N·m or N: the constant one, or a bound on the law's own while the errors stay in their
+    /// envelope. `None` without a controller, for a law that does not switch or that learns, or where no level of V holds the
+    /// errors.
+    pub fn switching_gain(&self) -> Option<Vec<f64>> {
+        switching_gain(&self.designed.certified, self.design()?)
     }
 
     /// The step of the same law about the exact model; `None` without a controller, or for a law that learns.
