@@ -6,6 +6,7 @@ mod generate;
 mod inspect;
 mod print;
 mod progress;
+mod report;
 mod reproduce;
 mod simulate;
 
@@ -36,6 +37,7 @@ enum Command {
     Evaluate(evaluate::Evaluate),
     Generate(generate::Generate),
     Simulate(simulate::Simulate),
+    Report(report::Report),
     Reproduce(reproduce::Reproduce),
     /// Prints the JSON Schema of specification files.
     Schema,
@@ -53,6 +55,7 @@ pub fn run() -> ExitCode {
         Some(Command::Evaluate(command)) => command.run(),
         Some(Command::Generate(command)) => command.run(),
         Some(Command::Simulate(command)) => command.run(),
+        Some(Command::Report(command)) => command.run(),
         Some(Command::Reproduce(command)) => command.run(),
         Some(Command::Schema) => crate::load::schema().and_then(json),
     };

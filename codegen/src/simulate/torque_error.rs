@@ -24,8 +24,7 @@ pub fn largest_torque_error(generation: &Generation) -> Option<Vec<f64>> {
     let errors: Vec<Vec<f64>> = seen
         .into_par_iter()
         .map(|q| {
-            let [own, exact] =
-                [generation.code(), generation.exact_code()].map(|code| matrices(code, n, q));
+            let [own, exact] = [generation.code(), generation.exact_code()].map(|code| matrices(code, n, q));
             (0..n).map(|i| error(&own, &exact, rates, i)).collect()
         })
         .collect();
@@ -92,7 +91,10 @@ mod tests {
             let n = m.len();
             let sign = |bits: usize, i: usize| if bits >> i & 1 == 1 { 1.0 } else { -1.0 };
             let value = |x: usize, y: usize| -> f64 {
-                (0..n).flat_map(|j| (0..n).map(move |k| (j, k))).map(|(j, k)| m[j][k] * sign(x, j) * sign(y, k)).sum()
+                (0..n)
+                    .flat_map(|j| (0..n).map(move |k| (j, k)))
+                    .map(|(j, k)| m[j][k] * sign(x, j) * sign(y, k))
+                    .sum()
             };
             let corners = (0..1 << n).flat_map(|x| (0..1 << n).map(move |y| (x, y)));
             let most = corners.map(|(x, y)| value(x, y)).fold(0.0, f64::max);

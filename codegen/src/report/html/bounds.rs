@@ -17,7 +17,8 @@ pub(super) fn figure(study: &Study) -> Figure {
     };
     let joints = &generation.arm().joints;
     let found = study.torque_found.as_deref();
-    let part = |error: f64, i: usize| if torque.is_still(i) { f64::NAN } else { 100.0 * error / torque.peak[i] };
+    let part =
+        |error: f64, i: usize| if torque.is_still(i) { f64::NAN } else { 100.0 * error / torque.peak[i] };
     let mut parts = vec![("certified bound".to_string(), Role::Certified)];
     parts.extend(found.map(|_| ("largest found by search".to_string(), Role::Found)));
     let row = |i: usize| {
@@ -68,7 +69,8 @@ fn caption(study: &Study, torque: &Torque) -> String {
     };
     let sharp = worst_ratio(generation.lagrangian(), generation.certificates());
     let how = match exact {
-        true => "This is the exact model: what is left is rounding, and what was rounded off the rotations.".to_string(),
+        true => "This is the exact model: what is left is rounding, and what was rounded off the rotations."
+            .to_string(),
         false => format!(
             "No state inside the domain exceeds the certified bound; the search only shows how close to it real states come. Each \
              coefficient's bound is at most {} times a value found.",

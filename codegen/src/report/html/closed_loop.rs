@@ -15,7 +15,8 @@ const LEAST: f64 = 1e-12;
 /// Names of the curves of the exact law and of the specification's own.
 fn names(comparison: &Comparison) -> [String; 2] {
     let own = law_name(comparison.law_kind, comparison.boundary_layer.is_some());
-    let fate = |run: &Run| run.metrics.diverged_at.map_or(String::new(), |at| format!(", diverged at {at:.2} s"));
+    let fate =
+        |run: &Run| run.metrics.diverged_at.map_or(String::new(), |at| format!(", diverged at {at:.2} s"));
     [
         format!("exact model, law (16){}", fate(&comparison.exact)),
         format!("this size, {own}{}", fate(&comparison.law)),
@@ -147,7 +148,9 @@ fn verdict(comparison: &Comparison) -> &'static str {
     match (own.diverged_at, exact.diverged_at) {
         (Some(_), _) => "This size diverges: do not use it.",
         (None, Some(_)) => "The exact law diverges: check its gains.",
-        _ if own.rms_error_total <= 1.05 * exact.rms_error_total => "The smaller model costs no accuracy here.",
+        _ if own.rms_error_total <= 1.05 * exact.rms_error_total => {
+            "The smaller model costs no accuracy here."
+        }
         _ => "The smaller model tracks worse here: compare with the sizes above.",
     }
 }
@@ -167,7 +170,8 @@ pub(super) fn torque_figure(study: &Study) -> Option<Figure> {
             series.push(Series::between(name, Role::Certified, [0.0, end], [low[i], high[i]]));
         }
         let limit = design.torque_limit.get(i).copied().flatten();
-        for (name, level) in limit.iter().flat_map(|limit| [("limit", *limit), ("limit, other way", -limit)]) {
+        for (name, level) in limit.iter().flat_map(|limit| [("limit", *limit), ("limit, other way", -limit)])
+        {
             series.push(Series::level(name, Role::Limit, [0.0, end], level));
         }
         series.extend(both(comparison, &|run, k| run.trace.torque[k][i]));
@@ -201,7 +205,8 @@ pub(super) fn torque_figure(study: &Study) -> Option<Figure> {
         ),
     };
     let steps = comparison.law.metrics.saturated_steps;
-    let caption = format!("{certified} In the run shown, a limit cut the torque in {}.", counted(steps, "period"));
+    let caption =
+        format!("{certified} In the run shown, a limit cut the torque in {}.", counted(steps, "period"));
     Some(Figure { caption, panels })
 }
 

@@ -31,6 +31,17 @@ pub(super) enum Panel {
     Bars(Bars),
     /// The arm at some instants.
     Arm(Poses),
+    /// The sizes, each a dot.
+    Dots {
+        /// Heading of the panel.
+        title: String,
+        /// The axis across.
+        x: Axis,
+        /// The axis up.
+        y: Axis,
+        /// One for each size, in order.
+        dots: Vec<Dot>,
+    },
     /// A table.
     Table(Table),
 }
@@ -165,6 +176,19 @@ pub(super) struct Bar {
     pub values: Vec<f64>,
     /// False for what this size of the model leaves out: drawn as an outline.
     pub kept: bool,
+}
+
+/// One size among all.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Dot {
+    /// Name of the size.
+    pub label: String,
+    /// Its cost.
+    pub x: f64,
+    /// Its certified error; `None` for the exact model, or where it is not known.
+    pub certified: Option<f64>,
+    /// Its largest error that was found.
+    pub found: Option<f64>,
 }
 
 /// The arm at some instants.

@@ -30,7 +30,8 @@ pub(super) fn figure(study: &Study) -> Option<Figure> {
         caption.replace_range(..1, &first);
     }
     let longest = if promised.period_certified { "longest, certified" } else { "longest, found" };
-    let bar = |label: &str, value: f64| Bar { label: label.to_string(), values: vec![1e3 * value], kept: true };
+    let bar =
+        |label: &str, value: f64| Bar { label: label.to_string(), values: vec![1e3 * value], kept: true };
     let bars = Bars {
         title: "Control period".to_string(),
         axis: Axis::logarithmic("period", "ms"),
@@ -51,7 +52,8 @@ fn table(study: &Study, design: &Design) -> Table {
     }
     let mut table = Table::new("Gains by joint (diagonals)", head);
     for (i, joint) in joints.iter().enumerate() {
-        let (torque, rate) = (torque_unit(joint.kind), if joint.kind == JointKind::Revolute { "rad" } else { "m" });
+        let (torque, rate) =
+            (torque_unit(joint.kind), if joint.kind == JointKind::Revolute { "rad" } else { "m" });
         let mut row = vec![
             joint.name.clone(),
             format!("{} {torque}·s/{rate}", three(design.w[i][i], false)),

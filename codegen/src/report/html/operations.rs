@@ -30,8 +30,10 @@ pub(super) fn figure(study: &Study) -> Figure {
         None => Some(generation.exact_code().operations()),
     };
     let exact = exact.filter(|_| !generation.reduced().is_exact());
-    let used: Vec<&Kind> =
-        KINDS.iter().filter(|kind| kind.2(&own) + exact.as_ref().map_or(0, |exact| kind.2(exact)) > 0).collect();
+    let used: Vec<&Kind> = KINDS
+        .iter()
+        .filter(|kind| kind.2(&own) + exact.as_ref().map_or(0, |exact| kind.2(exact)) > 0)
+        .collect();
     let mut models = vec![("this size", own)];
     models.extend(exact.map(|exact| ("exact model", exact)));
     let parts = used.iter().enumerate().map(|(k, kind)| (kind.0.to_string(), Role::Joint(k))).collect();

@@ -42,7 +42,10 @@ pub(super) fn figure(study: &Study) -> Figure {
     let bars = Bars {
         title: "Share of each function, in the order of selection".to_string(),
         axis: Axis::logarithmic("share of the model", "%"),
-        parts: vec![("share".to_string(), Role::Found), ("together with those above".to_string(), Role::Exact)],
+        parts: vec![
+            ("share".to_string(), Role::Found),
+            ("together with those above".to_string(), Role::Exact),
+        ],
         stacked: false,
         rows: rows.collect(),
     };
@@ -59,7 +62,11 @@ fn caption(study: &Study, order: &[Share]) -> String {
     });
     let ranked = match enough {
         Some(last) => format!("{} of {count} carry 99 % of the model", counted(last + 1, "function")),
-        None => format!("the first {} of {count} functions carry {} of the model", order.len(), words::percent(sum, false)),
+        None => format!(
+            "the first {} of {count} functions carry {} of the model",
+            order.len(),
+            words::percent(sum, false)
+        ),
     };
     format!(
         "Weighted by the squares of what multiplies them along the motion or within the limits, {ranked}. Bars that are only \

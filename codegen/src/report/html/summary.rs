@@ -26,7 +26,9 @@ pub(super) fn figure(study: &Study) -> Figure {
                 let joints = &generation.arm().joints;
                 ("sampled loop".to_string(), format!("tracks within {}, worst joint", worst(joints, error)))
             }
-            (Kind::Continuous, _) => ("continuous law".to_string(), "the held torque counts to first order".to_string()),
+            (Kind::Continuous, _) => {
+                ("continuous law".to_string(), "the held torque counts to first order".to_string())
+            }
             _ => ("none".to_string(), statement.reasons.first().cloned().unwrap_or_default()),
         };
         tiles.push(Tile { name: "Guarantee", value, note });
@@ -51,7 +53,11 @@ fn cost(study: &Study) -> Tile {
             let exact = generation.exact_step().map(|step| step.operations().cost());
             ("Control step", StepGraph::operations(step).cost(), exact)
         }
-        None => ("Model", generation.code().operations().cost(), Some(generation.exact_code().operations().cost())),
+        None => (
+            "Model",
+            generation.code().operations().cost(),
+            Some(generation.exact_code().operations().cost()),
+        ),
     };
     let exact = exact.filter(|_| !generation.reduced().is_exact());
     let note = match exact {

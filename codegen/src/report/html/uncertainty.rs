@@ -49,6 +49,9 @@ pub(super) fn figure(study: &Study) -> Option<Figure> {
         "Bounds and guarantee hold for every arm of these intervals, so wide ones make the certified errors large: narrow those that you can \
          measure."
     };
-    let caption = format!("{} known to an interval only. {how}", if count == 1 { "1 number is".to_string() } else { format!("{} are", counted(count, "number")) });
+    let caption = format!(
+        "{} known to an interval only. {how}",
+        if count == 1 { "1 number is".to_string() } else { format!("{} are", counted(count, "number")) }
+    );
     Some(Figure { caption, panels: vec![Panel::Bars(bars), Panel::Table(table)] })
 }

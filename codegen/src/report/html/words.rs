@@ -13,7 +13,11 @@ pub(super) fn position(x: f64, kind: JointKind, up: bool) -> String {
     if x == 0.0 {
         return format!("0 {whole}");
     }
-    if x.abs() < most { format!("{} {part}", three(1e3 * x, up)) } else { format!("{} {whole}", three(x, up)) }
+    if x.abs() < most {
+        format!("{} {part}", three(1e3 * x, up))
+    } else {
+        format!("{} {whole}", three(x, up))
+    }
 }
 
 /// A time with its unit: `1 ms`, `2.35 s`.
@@ -27,7 +31,11 @@ pub(super) fn percent(fraction: f64, up: bool) -> String {
         return "no percentage".to_string();
     }
     let percent = 100.0 * fraction;
-    if percent > 0.0 && percent < 1e-3 { "below 0.001 %".to_string() } else { format!("{} %", three(percent, up)) }
+    if percent > 0.0 && percent < 1e-3 {
+        "below 0.001 %".to_string()
+    } else {
+        format!("{} %", three(percent, up))
+    }
 }
 
 /// `x` with three digits and no zeros at its end.
