@@ -10,8 +10,9 @@ use crate::check::read;
 use crate::error::Error;
 use crate::load::Loaded;
 use crate::output::write_if_changed;
-use crate::progress::{Progress, Stage};
-use crate::report::{ReportEffort, Study, html_report};
+use crate::parallel::Parallelize;
+use crate::progress::{Progress, Silent, Stage};
+use crate::report::{ReportEffort, Study, counted, html_report};
 use crate::sizes::{Size, default_sizes};
 use crate::spec::ModelSpec;
 
@@ -38,42 +39,54 @@ pub(super) struct Report {
 impl Report {
     pub(super) fn run(&self) -> Result<String, Error> {
         let loaded = read(&self.spec)?;
-        let studies = watched(|progress| self.studies(&loaded, progress))?;
-        let own = studies.iter().position(|study| study.label == Size::default().label()).unwrap_or(0);
-        if let Some(study) = studies.get(own) {
-            show_warnings(study.generation.warnings());
-        }
-        let page = html_report(&studies, own)?;
+        let (own, others) = watched(|progress| self.studies(&loaded, progress))?;
+        show_warnings(own.generation.warnings());
+        let count = others.len() + 1;
+        let page = html_report(own, others)?;
         let written = write_if_changed(&self.out, &page)?;
         let state = if written { "written" } else { "unchanged" };
         let path = self.out.display();
-        Ok(format!("{path}: {state}, {} bytes, {} model sizes\n", page.len(), studies.len()))
+        Ok(format!("{path}: {state}, {} bytes, {}\n", page.len(), counted(count, "model size")))
     }
 
-    /// All sizes, from the loosest to the exact one. The specification's own must succeed; one of the others that cannot be had
-    /// is left out.
-    fn studies(&self, loaded: &Loaded, progress: &dyn Progress) -> Result<Vec<Study>, Error> {
+    /// The specification's own size, which must succeed, and the others that can be had.
+    fn studies(&self, loaded: &Loaded, progress: &dyn Progress) -> Result<(Study, Vec<Study>), Error> {
         let effort = ReportEffort { runs: self.runs as usize, guarantee: true };
         let others = if self.one_size { Vec::new() } else { others(loaded)? };
         let stage = Stage::new(progress, "model sizes", others.len() + 1);
-        let one = |size: &Size| {
+        let one = |size: Size| {
             let _part = stage.part();
-            Study::new(loaded, size, effort, progress)
+            // Stages of several sizes at once would be told in disorder.
+            Study::new(loaded, &size, effort, &Silent)
         };
-        let mut studies = vec![one(&Size::default())?];
-        studies.extend(others.iter().filter_map(|size| one(size).ok()));
-        Ok(studies)
+        let own = one(Size::default())?;
+        Ok((own, others.into_par_iter().map(|size| one(size).ok()).filter_map(|study| study).collect()))
     }
 }
 
-/// The other sizes of the slider.
+/// Most numbers of functions among the sizes.
+const COUNTS: usize = 3;
+
+/// The other sizes of the slider: the exact model, tolerances from 1 % on, and some numbers of functions, fewer than all.
 fn others(loaded: &Loaded) -> Result<Vec<Size>, Error> {
-    let own = &loaded.spec.model;
-    let sizes = default_sizes(loaded)?;
-    let wanted = |size: &Size| match &size.model {
-        Some(ModelSpec::Tolerance { torque }) => *torque >= 0.01 && own.tolerance() != Some(*torque),
-        Some(model) => model != own,
-        None => false,
+    let own = Size::of(loaded.spec.model.clone());
+    let is_own = |size: &Size| {
+        *size == own
+            || size.model.as_ref().map(ModelSpec::tolerance) == Some(loaded.spec.model.tolerance())
+                && loaded.spec.model.tolerance().is_some()
     };
-    Ok(sizes.into_iter().filter(wanted).collect())
+    let (mut counts, mut out) = (Vec::new(), Vec::new());
+    for size in default_sizes(loaded)?.into_iter().filter(|size| !is_own(size)) {
+        match size.model {
+            Some(ModelSpec::Shared { functions }) => counts.push(functions),
+            Some(ModelSpec::Tolerance { torque }) if torque < 0.01 => {}
+            _ => out.push(size),
+        }
+    }
+    // The last one keeps all functions.
+    counts.pop();
+    let every = counts.len().div_ceil(COUNTS).max(1);
+    let counts = counts.into_iter().rev().step_by(every);
+    out.extend(counts.map(|functions| Size::of(ModelSpec::Shared { functions })));
+    Ok(out)
 }

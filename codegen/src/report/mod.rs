@@ -14,6 +14,7 @@ mod table;
 pub(crate) use claims::largest_difference;
 pub use claims::{Claim, claims};
 pub use funnel::funnel_plot;
+pub(crate) use html::counted;
 pub use html::{ReportEffort, Study, html_report};
 pub use monte_carlo::{CertifiedErrors, monte_carlo_table};
 pub use plot::plot;

@@ -2,16 +2,21 @@
 
 use crate::bounds::Rates;
 use crate::domain::Measure;
-use crate::lagrangian::Values;
+use crate::lagrangian::{Combination, Values};
 use crate::parallel::Parallelize;
 use crate::pipeline::Generation;
+use crate::reduction::plus;
 use crate::torque::matrices;
 
 /// Positions of the domain at which the search looks.
 const POSITIONS: usize = 600;
+/// Of an uncertain arm the positions, and the arms at each of them, at most.
+const POSITIONS_OF_FAMILY: usize = 150;
+const ARMS: usize = 16;
 
 /// The largest |δD a_r + δC v_r + δG| by joint, N·m or N, at some positions of the domain, for the worst rates up to those of the
-/// certified error: of the arm as specified, in f64. Over a workspace where a joint lacks a limit, `None`.
+/// certified error. Of an uncertain arm those at some vertices of its intervals are looked at. Over a workspace where a joint lacks
+/// a limit, `None`.
 ///
 /// δG and the two products can be given one sign by turning rates round, so their largest magnitudes add up. What v_r and q̇
 /// make of δC is raised by turns, from the signs of its largest entry.
@@ -19,17 +24,49 @@ pub fn largest_torque_error(generation: &Generation) -> Option<Vec<f64>> {
     let rates = &generation.torque()?.rates;
     let n = generation.arm().dof();
     let points = Measure::new(generation.domain(), generation.arm()).points;
-    let every = points.len().div_ceil(POSITIONS).max(1);
-    let seen: Vec<&Vec<f64>> = points.iter().step_by(every).collect();
+    let arms = arms(generation);
+    let positions = if arms.is_empty() { POSITIONS } else { POSITIONS_OF_FAMILY };
+    let seen: Vec<&Vec<f64>> = points.iter().step_by(points.len().div_ceil(positions).max(1)).collect();
     let errors: Vec<Vec<f64>> = seen
         .into_par_iter()
-        .map(|q| {
-            let [own, exact] = [generation.code(), generation.exact_code()].map(|code| matrices(code, n, q));
-            (0..n).map(|i| error(&own, &exact, rates, i)).collect()
+        .flat_map_iter(|q| {
+            let lagrangian = generation.lagrangian();
+            let of = |[own, exact]: [Values; 2]| (0..n).map(|i| error(&own, &exact, rates, i)).collect();
+            if arms.is_empty() {
+                return vec![of(
+                    [generation.code(), generation.exact_code()].map(|code| matrices(code, n, q))
+                )];
+            }
+            let at =
+                |arm: &[Vec<Combination>; 2]| of(arm.each_ref().map(|terms| lagrangian.at_with(terms, q)));
+            arms.iter().map(at).collect()
         })
         .collect();
     let most = |i: usize| errors.iter().fold(0.0, |most: f64, error| most.max(error[i]));
     Some((0..n).map(most).collect())
+}
+
+/// The coefficients of model and arm at some vertices of the uncertain parameters' box; none where nothing is uncertain.
+fn arms(generation: &Generation) -> Vec<[Vec<Combination>; 2]> {
+    let (lagrangian, reduced) = (generation.lagrangian(), generation.reduced());
+    let vertices: Vec<Vec<f64>> = match generation.uncertainty().parameters.is_empty() {
+        true => Vec::new(),
+        false => generation.uncertainty().vertices().collect(),
+    };
+    let every = vertices.len().div_ceil(ARMS).max(1);
+    let moved = |terms: &Combination, variations: &[Combination], u: &[f64]| {
+        variations.iter().zip(u).fold(terms.clone(), |sum, (variation, &u)| plus(&sum, u, variation))
+    };
+    let at = |u: &Vec<f64>| {
+        let (mut own, mut exact) = (Vec::new(), Vec::new());
+        for (m, coefficient) in lagrangian.coefficients.iter().enumerate() {
+            exact.push(moved(&coefficient.terms, &coefficient.variations, u));
+            let learnt = reduced.variations.get(m).map_or(&[][..], Vec::as_slice);
+            own.push(moved(&reduced.combinations[m], learnt, u));
+        }
+        [own, exact]
+    };
+    vertices.iter().step_by(every).map(at).collect()
 }
 
 /// The largest error of joint `i` at one position.

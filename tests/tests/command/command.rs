@@ -3,4 +3,5 @@
 mod evaluate;
 mod generate;
 mod progress;
+mod report;
 mod show;

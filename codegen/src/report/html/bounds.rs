@@ -1,9 +1,10 @@
 //! What the model leaves out in torque: certified, and found.
 
 use super::figure::{Axis, Bar, Bars, Figure, Panel, Role, Table, drawn_up};
+use super::sizes::LEAST;
 use super::study::Study;
 use super::words;
-use crate::bounds::{Torque, worst_ratio};
+use crate::bounds::Torque;
 use crate::report::torque_unit;
 
 /// The torque error by joint as a part of the peak torque, certified and found.
@@ -24,11 +25,11 @@ pub(super) fn figure(study: &Study) -> Figure {
     let row = |i: usize| {
         let mut values = vec![drawn_up(part(torque.error[i], i))];
         values.extend(found.map(|found| part(found[i], i)));
-        Bar { label: joints[i].name.clone(), values, kept: true }
+        Bar::new(&joints[i].name, values)
     };
     let bars = Bars {
         title: "Torque error of the model".to_string(),
-        axis: Axis::logarithmic("part of the peak torque", "%"),
+        axis: Axis::from(LEAST, "part of the peak torque", "%"),
         parts,
         stacked: false,
         rows: (0..joints.len()).map(row).collect(),
@@ -67,14 +68,22 @@ fn caption(study: &Study, torque: &Torque) -> String {
         }
         _ => "not told as a percentage, since a joint takes no torque".to_string(),
     };
-    let sharp = worst_ratio(generation.lagrangian(), generation.certificates());
+    let ratios = study.torque_found.iter().flatten().zip(&torque.error).map(|(found, error)| error / found);
+    let sharp = ratios.fold(0.0, f64::max);
+    let sharp = match sharp.is_finite() && !exact {
+        true => format!(" The bound is at most {} times what was found.", words::three(sharp, true)),
+        false => String::new(),
+    };
+    let uncertain = !generation.uncertainty().is_empty();
     let how = match exact {
+        true if uncertain => {
+            "This is the exact model of the arm as specified: the error is that of the uncertain numbers."
+                .to_string()
+        }
         true => "This is the exact model: what is left is rounding, and what was rounded off the rotations."
             .to_string(),
         false => format!(
-            "No state inside the domain exceeds the certified bound; the search only shows how close to it real states come. Each \
-             coefficient's bound is at most {} times a value found.",
-            words::three(sharp, true)
+            "No state inside the domain exceeds the certified bound. The search shows how close to it real states come.{sharp}"
         ),
     };
     format!("The model's error is {worst}. {how}")

@@ -38,6 +38,19 @@ fn panels(joints: &[Joint], panel: impl Fn(usize, &Joint) -> Lines) -> Vec<Panel
     joints.iter().enumerate().map(|(i, joint)| Panel::Lines(panel(i, joint))).collect()
 }
 
+/// The certified |q_e| of joint `i` over time, rad or m, up to `end`, s: where the claim goes on when the errors are no longer
+/// followed one by one, the settled ones hold.
+fn course(sampled: &Sampled, i: usize, end: f64) -> Vec<(f64, f64)> {
+    let followed = sampled.course.iter().filter(|(time, _)| *time <= end);
+    let mut out = steps(followed.map(|(time, errors)| (*time, drawn_up(errors[i]))));
+    let until = sampled.valid_until.unwrap_or(end).min(end);
+    let last = out.last().map_or(0.0, |point| point.0);
+    if let Some(settled) = sampled.settled_error.as_ref().filter(|_| sampled.settle <= last && last < until) {
+        out.extend([last, until].map(|time| (time, drawn_up(settled[i]))));
+    }
+    out
+}
+
 /// Certified and found |q − q_d| over time.
 pub(super) fn funnel_figure(study: &Study) -> Option<Figure> {
     let generation = &study.generation;
@@ -54,8 +67,9 @@ pub(super) fn funnel_figure(study: &Study) -> Option<Figure> {
             series.push(Series::level("tube of the bounds", Role::Limit, [0.0, end], width));
         }
         if let Some(sampled) = promised {
-            let course = sampled.course.iter().map(|(time, errors)| (*time, drawn_up(errors[i].max(LEAST))));
-            series.push(Series::curve("certified: no run exceeds it", Role::Certified, steps(course)));
+            let course = course(sampled, i, end).into_iter().map(|(time, error)| (time, error.max(LEAST)));
+            let course = course.collect();
+            series.push(Series::curve("certified: no run exceeds it", Role::Certified, course));
         }
         if let Some(found) = &study.found {
             let largest = found.picture.largest.iter().map(|errors| errors[i].max(LEAST));
@@ -115,9 +129,7 @@ pub(super) fn tracking_figure(study: &Study) -> Option<Figure> {
     let panel = |i: usize, joint: &Joint| {
         let mut series = Vec::new();
         if let Some(sampled) = promised {
-            let course = sampled.course.iter().filter(|(time, _)| *time <= end);
-            let upper = steps(course.map(|(time, errors)| (*time, drawn_up(errors[i]))));
-            let (x, y): (Vec<f64>, Vec<f64>) = upper.into_iter().unzip();
+            let (x, y): (Vec<f64>, Vec<f64>) = course(sampled, i, end).into_iter().unzip();
             let low = y.iter().map(|y| -y).collect();
             let name = "certified: every run stays inside".to_string();
             series.push(Series { name, role: Role::Certified, x, y, low });
@@ -170,8 +182,7 @@ pub(super) fn torque_figure(study: &Study) -> Option<Figure> {
             series.push(Series::between(name, Role::Certified, [0.0, end], [low[i], high[i]]));
         }
         let limit = design.torque_limit.get(i).copied().flatten();
-        for (name, level) in limit.iter().flat_map(|limit| [("limit", *limit), ("limit, other way", -limit)])
-        {
+        for (name, level) in limit.iter().flat_map(|limit| [("limit", *limit), ("limit", -limit)]) {
             series.push(Series::level(name, Role::Limit, [0.0, end], level));
         }
         series.extend(both(comparison, &|run, k| run.trace.torque[k][i]));

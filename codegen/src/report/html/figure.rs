@@ -66,20 +66,30 @@ pub(super) struct Axis {
     pub unit: &'static str,
     /// Whether it is logarithmic.
     pub logarithmic: bool,
+    /// What smaller numbers are drawn as, on a logarithmic axis.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least: Option<f64>,
 }
 
 impl Axis {
     /// Time in seconds.
-    pub(super) const TIME: Self = Self { name: "time", unit: "s", logarithmic: false };
+    pub(super) const TIME: Self = Self { name: "time", unit: "s", logarithmic: false, least: None };
 
     /// A linear axis.
     pub(super) fn linear(name: &'static str, unit: &'static str) -> Self {
-        Self { name, unit, logarithmic: false }
+        Self { name, unit, logarithmic: false, least: None }
     }
 
     /// A logarithmic axis.
     pub(super) fn logarithmic(name: &'static str, unit: &'static str) -> Self {
-        Self { name, unit, logarithmic: true }
+        Self { name, unit, logarithmic: true, least: None }
+    }
+}
+
+impl Axis {
+    /// A logarithmic axis on which a number below `least` is drawn as that.
+    pub(super) fn from(least: f64, name: &'static str, unit: &'static str) -> Self {
+        Self { least: Some(least), ..Self::logarithmic(name, unit) }
     }
 }
 
@@ -174,6 +184,9 @@ pub(super) struct Bar {
     /// A number for each part.
     #[serde(serialize_with = "short_numbers")]
     pub values: Vec<f64>,
+    /// Words at its end, in place of the numbers.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub note: String,
     /// False for what this size of the model leaves out: drawn as an outline.
     pub kept: bool,
 }
@@ -185,10 +198,16 @@ pub(super) struct Dot {
     pub label: String,
     /// Its cost.
     pub x: f64,
-    /// Its certified error; `None` for the exact model, or where it is not known.
+    /// Its certified error; `None` where it is not known.
     pub certified: Option<f64>,
     /// Its largest error that was found.
     pub found: Option<f64>,
+}
+
+impl Bar {
+    pub(super) fn new(label: impl Into<String>, values: Vec<f64>) -> Self {
+        Self { label: label.into(), values, note: String::new(), kept: true }
+    }
 }
 
 /// The arm at some instants.

@@ -30,11 +30,10 @@ pub(super) fn figure(study: &Study) -> Option<Figure> {
         caption.replace_range(..1, &first);
     }
     let longest = if promised.period_certified { "longest, certified" } else { "longest, found" };
-    let bar =
-        |label: &str, value: f64| Bar { label: label.to_string(), values: vec![1e3 * value], kept: true };
+    let bar = |label: &str, value: f64| Bar::new(label, vec![1e3 * value]);
     let bars = Bars {
         title: "Control period".to_string(),
-        axis: Axis::logarithmic("period", "ms"),
+        axis: Axis::linear("period", "ms"),
         parts: vec![("period".to_string(), Role::Found)],
         stacked: false,
         rows: vec![bar("used", design.period), bar(longest, promised.period_max)],

@@ -21,20 +21,32 @@ mod uncertainty;
 mod words;
 
 pub use study::{ReportEffort, Study};
+pub(crate) use words::counted;
 
 use figure::Figure;
 
 use crate::error::Error;
+use crate::sizes::Size;
 
-/// The report on `studies`, sizes of one specification from the loosest to the exact one, opened at number `own`.
+/// The report on the size of a specification, `own`, and on other sizes of it. The slider goes from the size with the largest
+/// certified error to the exact one.
 ///
 /// # Errors
-/// [`Error::Internal`] where there is no study of that number.
-pub fn html_report(studies: &[Study], own: usize) -> Result<String, Error> {
-    let first = studies.get(own).ok_or_else(|| Error::Internal("a report of no size".to_string()))?;
-    let overview = sizes::figure(studies);
-    let figures: Vec<Vec<Option<Figure>>> = studies.iter().map(|study| all(study, &overview)).collect();
-    page::Page { name: &first.generation.spec().name, studies, own, figures: &figures }.html()
+/// [`Error::Internal`] where numbers cannot be written as JSON.
+pub fn html_report(mut own: Study, mut others: Vec<Study>) -> Result<String, Error> {
+    let name = own.generation.spec().name.clone();
+    let specified = Size::of(own.generation.spec().model.clone()).label();
+    own.label = format!("{specified} (specified)");
+    let label = own.label.clone();
+    others.push(own);
+    let error = |study: &Study| study.row.worst_fraction().unwrap_or(0.0);
+    let total = |study: &Study| study.row.operations.total;
+    // Where errors are equal, as those of all sizes that have become the exact one, the cheaper one comes last.
+    others.sort_by(|a, b| error(b).total_cmp(&error(a)).then(total(b).cmp(&total(a))));
+    let shown = others.iter().position(|study| study.label == label).unwrap_or(0);
+    let overview = sizes::figure(&others);
+    let figures: Vec<Vec<Option<Figure>>> = others.iter().map(|study| all(study, &overview)).collect();
+    page::Page { name: &name, studies: &others, own: shown, figures: &figures }.html()
 }
 
 /// The figures of one size, in the order of [`page::SECTIONS`].

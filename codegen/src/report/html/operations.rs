@@ -39,7 +39,7 @@ pub(super) fn figure(study: &Study) -> Figure {
     let parts = used.iter().enumerate().map(|(k, kind)| (kind.0.to_string(), Role::Joint(k))).collect();
     let row = |(name, operations): &(&str, Operations)| {
         let values = used.iter().map(|kind| (kind.1 * kind.2(operations)) as f64).collect();
-        Bar { label: (*name).to_string(), values, kept: true }
+        Bar::new(*name, values)
     };
     let bars = Bars {
         title: format!("Cost of one {what}"),

@@ -25,6 +25,7 @@
     const text = size >= 1000 ? String(Math.round(x)) : String(Number(x.toPrecision(4)));
     return text.replace("-", "−");
   }
+  const three = (x) => (Math.abs(x) >= 1e-3 && Math.abs(x) < 1000 ? String(Number(x.toPrecision(3))).replace("-", "−") : digits(x));
   const withUnit = (x, axis) => (axis.unit ? `${digits(x)} ${axis.unit}` : digits(x));
   const named = (axis) => (axis.unit ? `${axis.name} (${axis.unit})` : axis.name);
 
@@ -37,6 +38,12 @@
     return out;
   }
   function decades(low, high, wanted) {
+    if (high - low < 2) {
+      const parts = high - low < 1 ? [1, 2, 3, 5, 7] : [1, 2, 5];
+      const all = [];
+      for (let k = Math.floor(low); k <= high; k++) for (const part of parts) all.push(Number((part * 10 ** k).toPrecision(3)));
+      return all.filter((x) => x >= 10 ** (low - 1e-9) && x <= 10 ** (high + 1e-9));
+    }
     const [from, to] = [Math.ceil(low - 1e-9), Math.floor(high + 1e-9)];
     const every = Math.max(1, Math.ceil((to - from + 1) / wanted));
     const out = [];
@@ -46,7 +53,8 @@
 
   /** A map from numbers to pixels along one side of a plot, with its ticks. */
   function scale(values, axis, [from, to], wanted, tight = false) {
-    let finite = values.filter((x) => x !== null && Number.isFinite(x) && (!axis.logarithmic || x > 0));
+    const least = axis.least ?? 0;
+    let finite = values.filter((x) => x !== null && Number.isFinite(x) && (!axis.logarithmic || x > 0 || least > 0)).map((x) => (axis.logarithmic ? Math.max(x, least) : x));
     if (finite.length === 0) finite = [axis.logarithmic ? 1 : 0, 1];
     let low = finite.reduce((a, b) => Math.min(a, b));
     let high = finite.reduce((a, b) => Math.max(a, b));
@@ -67,8 +75,7 @@
       const u = low + ((high - low) * (p - from)) / (to - from);
       return axis.logarithmic ? 10 ** u : u;
     };
-    let ticks = axis.logarithmic ? decades(low, high, wanted) : niceTicks(low, high, wanted);
-    if (axis.logarithmic && ticks.length < 2) ticks = niceTicks(10 ** low, 10 ** high, 3).filter((x) => x > 0);
+    const ticks = axis.logarithmic ? decades(low, high, wanted) : niceTicks(low, high, wanted);
     return { at, back, ticks, low: axis.logarithmic ? 10 ** low : low };
   }
   const tick = (x, axis) => {
@@ -138,7 +145,8 @@
 
   // Drawing.
 
-  const HEIGHT = 220;
+  const LOW = 220;
+  const TALL = 320;
   const STEPS = 101;
 
   function frame(width, height, x, y, left, bottom) {
@@ -191,7 +199,9 @@
     return ys[a] + ((ys[b] - ys[a]) * Math.min(x - xs[a], xs[b] - xs[a])) / (xs[b] - xs[a]);
   }
 
-  function lines(panel, width) {
+  function lines(panel, width, figure) {
+    // As high as what stands beside it.
+    const HEIGHT = figure.panels.some((other) => other.kind === "dots") ? TALL : LOW;
     const [left, bottom] = [62, HEIGHT - 38];
     const x = scale(panel.series.flatMap((s) => s.x), panel.x, [left, width - 10], width / 80, !panel.x.logarithmic);
     const y = scale(panel.series.flatMap((s) => s.y.concat(s.low ?? [])), panel.y, [bottom, 8], 5);
@@ -243,13 +253,14 @@
     const values = panel.stacked ? panel.rows.map(sum) : panel.rows.flatMap((r) => r.values);
     const signed = values.some((v) => v < 0);
     const all = panel.axis.logarithmic ? values : values.concat([0]);
-    const x = scale(all, panel.axis, [left, width - 64], width / 110, !signed);
+    const right = width - (panel.rows.some((r) => r.note) ? 190 : 64);
+    const x = scale(all, panel.axis, [left, right], width / 110, !signed);
     const out = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "drawing" });
     for (const value of x.ticks) {
       out.append(svg("line", { class: "grid", x1: x.at(value), x2: x.at(value), y1: 8, y2: bottom }));
       out.append(svg("text", { class: "middle", x: x.at(value), y: bottom + 17 }, tick(value, panel.axis)));
     }
-    out.append(svg("text", { class: "middle", x: (left + width - 64) / 2, y: height - 3 }, named(panel.axis)));
+    out.append(svg("text", { class: "middle", x: (left + right) / 2, y: height - 3 }, named(panel.axis)));
     const from = panel.axis.logarithmic ? left : x.at(0);
     const marks = svg("g");
     panel.rows.forEach((r, k) => {
@@ -270,7 +281,7 @@
         }));
         if (!panel.stacked) {
           const side = end < start ? { x: end - 5, class: "end" } : { x: end + 5 };
-          out.append(svg("text", { ...side, y: y + 9 }, digits(value)));
+          out.append(svg("text", { ...side, y: y + 9 }, r.note ?? three(value)));
         }
       });
       if (panel.stacked) out.append(svg("text", { x: x.at(before) + 6, y: top + row / 2 + 2 }, digits(sum(r))));
@@ -278,7 +289,7 @@
     out.append(svg("line", { class: "axis", x1: from, x2: from, y1: 8, y2: bottom }), marks);
     const words = (k) => {
       const r = panel.rows[k];
-      const list = r.values.map((value, p) => `${panel.parts[p][0]}: ${withUnit(value, panel.axis)}`);
+      const list = r.values.map((value, p) => `${panel.parts[p][0]}: ${withUnit(value, panel.axis)}`).concat(r.note ? [r.note] : []);
       return [r.label + (r.kept ? "" : " (left out)"), ...list].join("\n");
     };
     const mark = (k) => {
@@ -290,19 +301,17 @@
   }
 
   function dots(panel, width) {
-    const height = 320;
+    const height = TALL;
     const [left, bottom] = [62, height - 38];
-    const errors = panel.dots.flatMap((dot) => [dot.certified, dot.found]).filter((e) => e !== null && e > 0);
-    // The exact model has no place on a logarithmic axis: it stands below all others.
-    const floor = errors.length ? errors.reduce((a, b) => Math.min(a, b)) / 4 : 1;
-    const x = scale(panel.dots.map((dot) => dot.x).concat([0]), panel.x, [left, width - 10], width / 90);
-    const y = scale(errors.concat([floor]), panel.y, [bottom - 6, 8], 6);
+    const errors = panel.dots.flatMap((dot) => [dot.certified, dot.found]);
+    const x = scale(panel.dots.map((dot) => dot.x), panel.x, [left, width - 10], width / 90);
+    const y = scale(errors, panel.y, [bottom - 6, 8], 6);
     const out = frame(width, height, { scale: x, axis: panel.x }, { scale: y, axis: panel.y }, left, bottom);
-    const place = (dot) => [x.at(dot.x), y.at(dot.certified ?? floor)];
+    const place = (dot) => [x.at(dot.x), y.at(dot.certified ?? panel.y.least)];
     const taken = [];
     panel.dots.forEach((dot, k) => {
       const [px, py] = place(dot);
-      if (dot.found) {
+      if (dot.found !== null && dot.certified !== null) {
         out.append(svg("line", { class: "grid", x1: px, x2: px, y1: py, y2: y.at(dot.found) }));
         out.append(svg("circle", { class: "dot found", cx: px, cy: y.at(dot.found), r: 3 }));
       }
@@ -320,7 +329,7 @@
     out.append(marks);
     const words = (k) => {
       const dot = panel.dots[k];
-      const part = (name, e) => `${name}: ${e === null ? "rounding alone" : withUnit(e, panel.y)}`;
+      const part = (name, e) => `${name}: ${e === null ? "not known" : withUnit(e, panel.y)}`;
       return [dot.label, `${panel.x.name}: ${dot.x}`, part("certified error", dot.certified), part("found error", dot.found)].join("\n");
     };
     const mark = (k) => {
@@ -433,11 +442,12 @@
       for (const s of panel.series ?? []) known.set(s.name + s.role, [s.name, s.role, s.low ? "band" : "curve"]);
       for (const [name, role] of panel.parts ?? []) known.set(name + role, [name, role, "fill"]);
       if (panel.kind === "dots") {
-        known.set("c", ["certified bound, a dot for each size", "certified", "fill"]);
-        known.set("f", ["largest found by search", "found", "fill"]);
+        known.set("certified boundcertified", ["certified bound", "certified", "curve"]);
+        known.set("largest found by searchfound", ["largest found by search", "found", "curve"]);
       }
     }
-    if (known.size === 0) return [];
+    // One kind of bar needs no key.
+    if (known.size === 0 || (known.size === 1 && [...known.values()][0][2] === "fill")) return [];
     const entry = ([name, role, kind]) => {
       const shape = kind === "curve" ? { d: "M1 6H27" } : { d: "M1 1H27V11H1Z" };
       return html("li", {}, svg("svg", { viewBox: "0 0 28 12", "aria-hidden": "true" }, svg("path", { class: `${kind} ${style(role)}`, ...shape })), name);
@@ -486,7 +496,14 @@
   }
 
   const drawings = { lines, bars, dots, arm };
-  const wideKinds = ["dots", "arm", "tiles"];
+
+  /** How many columns a panel takes: 1, "broad" for two, "wide" for all. */
+  function breadth(panel, figure) {
+    if (["arm", "tiles"].includes(panel.kind) || figure.panels.length === 1) return "wide";
+    if (panel.kind === "bars" && panel.rows.length > 9) return "wide";
+    if (panel.kind === "table") return panel.head.length > 6 ? "wide" : "broad";
+    return panel.kind === "dots" ? "broad" : "one";
+  }
 
   function fill(node) {
     const id = node.dataset.figure;
@@ -501,9 +518,8 @@
     box.replaceChildren();
     node.querySelectorAll(".legend, .data").forEach((old) => old.remove());
     box.before(...legend(figure.panels));
-    const wide = (panel) => wideKinds.includes(panel.kind) || (panel.kind === "bars" && panel.rows.length > 9) || panel.kind === "table" || figure.panels.length === 1;
     const made = figure.panels.map((panel) => {
-      const out = html("div", { class: wide(panel) ? "panel wide" : "panel" });
+      const out = html("div", { class: `panel ${breadth(panel, figure)}` });
       if (panel.kind === "table") out.append(table(panel));
       else if (panel.kind === "tiles") out.append(tiles(panel));
       else out.append(html("h3", {}, panel.title));
@@ -513,7 +529,7 @@
     // Widths are known once all are there.
     figure.panels.forEach((panel, k) => {
       const draw = drawings[panel.kind];
-      if (draw) made[k].append(plot(panel.title, draw(panel, Math.max(Math.min(made[k].clientWidth, 900), 260))));
+      if (draw) made[k].append(plot(panel.title, draw(panel, Math.max(made[k].clientWidth, 260), figure)));
     });
     node.querySelector("figcaption").textContent = figure.caption;
     node.append(files(id, figure));

@@ -11,22 +11,22 @@ use super::study::Study;
 use crate::error::Error;
 use crate::text::{escaped, escaped_json};
 
-/// Identifiers and headings of the figures, in order.
-pub(super) const SECTIONS: [(&str, &str); 14] = [
-    ("summary", "At a glance"),
-    ("sizes", "Model sizes"),
-    ("arm", "The arm"),
-    ("motion", "The motion"),
-    ("domain", "Where the bounds hold"),
-    ("functions", "Which functions matter"),
-    ("bounds", "What the model leaves out"),
-    ("operations", "What a step costs"),
-    ("funnel", "Error funnel"),
-    ("tracking", "Tracking"),
-    ("torques", "Torques"),
-    ("lyapunov", "Lyapunov function"),
-    ("gains", "Gains and period"),
-    ("uncertainty", "Uncertainty"),
+/// Of each figure, in order: its identifier, its heading and its name in the list of links.
+pub(super) const SECTIONS: [(&str, &str, &str); 14] = [
+    ("summary", "At a glance", "Glance"),
+    ("sizes", "Model sizes", "Sizes"),
+    ("arm", "The arm", "Arm"),
+    ("motion", "The motion", "Motion"),
+    ("domain", "Where the bounds hold", "Domain"),
+    ("functions", "Which functions matter", "Functions"),
+    ("bounds", "What the model leaves out", "Bounds"),
+    ("operations", "What a step costs", "Cost"),
+    ("funnel", "Error funnel", "Funnel"),
+    ("tracking", "Tracking", "Tracking"),
+    ("torques", "Torques", "Torques"),
+    ("lyapunov", "Lyapunov function", "V"),
+    ("gains", "Gains and period", "Gains"),
+    ("uncertainty", "Uncertainty", "Uncertainty"),
 ];
 
 const STYLE: &str = include_str!("page.css");
@@ -75,7 +75,7 @@ impl Page<'_> {
         self.head(&mut out);
         self.bar(&mut out, first);
         out += "<main id=\"main\">\n";
-        for ((id, heading), figure) in SECTIONS.iter().zip(first) {
+        for ((id, heading, _), figure) in SECTIONS.iter().zip(first) {
             if let Some(figure) = figure {
                 section(&mut out, id, heading, &figure.caption);
             }
@@ -141,8 +141,8 @@ impl Page<'_> {
         out.push_str("<nav aria-label=\"Figures\">\n<ul>\n");
         let shown =
             SECTIONS.iter().zip(first).filter(|(_, figure)| figure.is_some()).map(|(section, _)| *section);
-        for (id, heading) in shown.chain([("code", "Code")]) {
-            let _ = writeln!(out, "<li><a href=\"#{id}\">{heading}</a></li>");
+        for (id, _, name) in shown.chain([("code", "Code", "Code")]) {
+            let _ = writeln!(out, "<li><a href=\"#{id}\">{name}</a></li>");
         }
         out.push_str("</ul>\n</nav>\n</div>\n");
     }
@@ -156,7 +156,7 @@ impl Page<'_> {
         let mut sizes = Vec::new();
         for (study, figures) in self.studies.iter().zip(self.figures) {
             let mut numbers = BTreeMap::new();
-            for ((id, _), figure) in SECTIONS.iter().zip(figures) {
+            for ((id, ..), figure) in SECTIONS.iter().zip(figures) {
                 let Some(figure) = figure else { continue };
                 let text = serde_json::to_string(figure).map_err(defect)?;
                 let number = match known.get(&text) {

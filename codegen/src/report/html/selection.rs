@@ -10,7 +10,9 @@ use crate::emit::functions;
 use crate::reduction::{Share, shares};
 
 /// Functions whose shares are shown.
-const SHOWN: usize = 24;
+const SHOWN: usize = 16;
+/// The smallest share that is drawn, %.
+const LEAST: f64 = 1e-4;
 /// Values of functions at points that are held at once, at most.
 const MOST_VALUES: usize = 20_000_000;
 
@@ -35,17 +37,19 @@ pub(super) fn figure(study: &Study) -> Figure {
         sum += share;
         Bar {
             label: lagrangian.functions[function].to_string(),
-            values: vec![100.0 * share, 100.0 * sum.min(1.0)],
+            values: vec![100.0 * share],
+            note: format!(
+                "{}, together {}",
+                words::percent(share, false),
+                words::percent(sum.min(1.0), false)
+            ),
             kept: all || kept.contains(&function),
         }
     });
     let bars = Bars {
         title: "Share of each function, in the order of selection".to_string(),
-        axis: Axis::logarithmic("share of the model", "%"),
-        parts: vec![
-            ("share".to_string(), Role::Found),
-            ("together with those above".to_string(), Role::Exact),
-        ],
+        axis: Axis::from(LEAST, "share of the model", "%"),
+        parts: vec![("share".to_string(), Role::Certified)],
         stacked: false,
         rows: rows.collect(),
     };

@@ -4,12 +4,15 @@ use super::figure::{Axis, Dot, Figure, Lines, Panel, Role, Series, Table, drawn_
 use super::study::Study;
 use super::words;
 
+/// The smallest error that is drawn, % of the peak torque: what is below it is as good as exact.
+pub(super) const LEAST: f64 = 1e-4;
+
 /// Cost and error of every size, as dots and as a table; the same for all sizes.
 pub(super) fn figure(studies: &[Study]) -> Figure {
     let mut panels = vec![Panel::Dots {
         title: "Torque error against cost".to_string(),
         x: Axis::linear("weighted operations of a step", ""),
-        y: Axis::logarithmic("part of the peak torque", "%"),
+        y: Axis::from(LEAST, "part of the peak torque", "%"),
         dots: studies.iter().map(dot).collect(),
     }];
     panels.extend(by_functions(studies).map(Panel::Lines));
@@ -23,12 +26,11 @@ pub(super) fn figure(studies: &[Study]) -> Figure {
 
 fn dot(study: &Study) -> Dot {
     let row = &study.row;
-    let found = study.worst_found();
     Dot {
         label: study.label.clone(),
         x: row.operations.total as f64,
-        certified: row.worst_fraction().filter(|_| !row.exact).map(|error| drawn_up(100.0 * error)),
-        found: found.filter(|_| !row.exact).map(|error| 100.0 * error),
+        certified: row.worst_fraction().map(|error| drawn_up(100.0 * error)),
+        found: study.worst_found().map(|error| 100.0 * error),
     }
 }
 
@@ -45,7 +47,7 @@ fn by_functions(studies: &[Study]) -> Option<Lines> {
     (certified.len() > 1).then(|| Lines {
         title: "Torque error against the number of functions".to_string(),
         x: Axis::logarithmic("functions kept, ξ", ""),
-        y: Axis::logarithmic("part of the peak torque", "%"),
+        y: Axis::from(LEAST, "part of the peak torque", "%"),
         series: vec![
             Series::curve("certified bound", Role::Certified, certified),
             Series::curve("largest found by search", Role::Found, found),

@@ -19,7 +19,7 @@ pub(super) fn figure(study: &Study) -> Option<Figure> {
         table.rows.push(vec![name.to_string(), plain(low), plain(nominal), plain(high)]);
         let scale = nominal.abs().max(0.5 * (high - low));
         let values = vec![100.0 * (low - nominal) / scale, 100.0 * (high - nominal) / scale];
-        rows.push(Bar { label: name.to_string(), values, kept: true });
+        rows.push(Bar::new(name, values));
     };
     for p in &uncertainty.parameters {
         push(&p.name, p.nominal + p.low, p.nominal, p.nominal + p.high);

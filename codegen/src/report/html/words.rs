@@ -82,7 +82,7 @@ fn trimmed(digits: String) -> String {
 }
 
 /// `count` of a thing: `1 run`, `2 runs`.
-pub(super) fn counted(count: usize, thing: &str) -> String {
+pub(crate) fn counted(count: usize, thing: &str) -> String {
     if count == 1 { format!("1 {thing}") } else { format!("{count} {thing}s") }
 }
 
