@@ -1,7 +1,6 @@
 //! What the model leaves out in torque: certified, and found.
 
 use super::figure::{Axis, Bar, Bars, Figure, Panel, Role, Table, drawn_up};
-use super::sizes::LEAST;
 use super::study::Study;
 use super::words;
 use crate::bounds::Torque;
@@ -29,7 +28,7 @@ pub(super) fn figure(study: &Study) -> Figure {
     };
     let bars = Bars {
         title: "Torque error of the model".to_string(),
-        axis: Axis::from(LEAST, "part of the peak torque", "%"),
+        axis: Axis::linear("part of the peak torque", "%"),
         parts,
         stacked: false,
         rows: (0..joints.len()).map(row).collect(),

@@ -107,10 +107,10 @@ pub(super) fn worst(joints: &[Joint], errors: &[f64]) -> String {
 fn sampled_in_words(sampled: &Sampled, joints: &[Joint]) -> String {
     let until = match sampled.valid_until {
         None => "for ever".to_string(),
-        Some(end) => format!("until {}", words::time(end)),
+        Some(end) => format!("until {}", words::time_down(end)),
     };
     let settled = sampled.settled_error.as_ref().map_or(String::new(), |error| {
-        format!(", and below {} from {} on", worst(joints, error), words::time(sampled.settle))
+        format!(", and below {} from {} on", worst(joints, error), words::time_up(sampled.settle))
     });
     format!(
         "Certified {until}, for every initial error of the specification and every arm of its intervals: the loop that runs \

@@ -1,10 +1,10 @@
 //! Gains and periods.
 
-use super::closed_loop::worst;
 use super::figure::{Axis, Bar, Bars, Figure, Panel, Role, Table};
 use super::study::Study;
 use super::words::{self, three};
 use crate::arm::JointKind;
+use crate::bounds::printed_down;
 use crate::control::{Design, RobustGain};
 use crate::report::{law_name, torque_unit};
 
@@ -18,14 +18,12 @@ pub(super) fn figure(study: &Study) -> Option<Figure> {
         true => "below the longest at which the loop is stable with each D of the domain kept constant",
         false => "above the longest at which the loop is stable with each D of the domain kept constant",
     };
-    let caption = format!(
-        "{law}. The period of {} is {stable}: {}. Initial errors up to {} in the worst joint would still stay in the domain, for the \
+    let mut caption = format!(
+        "{law}. The period of {} is {stable}: {}. Initial errors up to those of the table would still stay in the domain, for the \
          continuous law.",
         words::time(design.period),
-        words::time(promised.period_max),
-        worst(&generation.arm().joints, &promised.initial_error_max),
+        words::time_down(promised.period_max),
     );
-    let mut caption = caption;
     if let Some(first) = caption.get(..1).map(str::to_uppercase) {
         caption.replace_range(..1, &first);
     }
@@ -49,6 +47,7 @@ fn table(study: &Study, design: &Design) -> Table {
     if switches {
         head.push("switching gain");
     }
+    head.push("initial error up to");
     let mut table = Table::new("Gains by joint (diagonals)", head);
     for (i, joint) in joints.iter().enumerate() {
         let (torque, rate) =
@@ -67,6 +66,8 @@ fn table(study: &Study, design: &Design) -> Table {
                 RobustGain::State => "by the state".to_string(),
             });
         }
+        let most = design.guarantee.initial_error_max.get(i);
+        row.push(most.map_or(String::new(), |most| format!("{} {rate}", printed_down(*most))));
         table.rows.push(row);
     }
     table

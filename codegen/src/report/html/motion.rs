@@ -49,16 +49,24 @@ pub(super) fn motion_figure(study: &Study) -> Option<Figure> {
         let parts = joints.iter().zip(most).filter_map(|(joint, most)| Some(most / limit(joint)?));
         parts.fold(None, |all: Option<f64>, part| Some(all.map_or(part, |all| all.max(part))))
     };
-    let told = |what: &str, part: Option<f64>| match part {
-        Some(part) => format!("{what} reaches at most {} of its limit", words::percent(part, true)),
-        None => format!("no joint has a limit of {what}"),
+    let told = |what: &str, part: Option<f64>| {
+        part.map(|part| format!("{what} reaches at most {} of its limit", words::percent(part, true)))
     };
-    let caption = format!(
-        "The motion lasts {}. Over all joints, {}; {}. A motion that breaks a limit is refused, so this one can be followed.",
-        words::time(motion.duration()),
+    let used = [
         told("speed", share(&speed, |joint| joint.limits.velocity)),
         told("acceleration", share(&acceleration, |joint| joint.limits.acceleration)),
-    );
+    ];
+    let used: Vec<String> = used.into_iter().flatten().collect();
+    let lasting = format!("The motion lasts {}.", words::time(motion.duration()));
+    let caption = match used.is_empty() {
+        true => format!(
+            "{lasting} No joint has a limit of speed or acceleration, so nothing here says whether the arm can follow it."
+        ),
+        false => format!(
+            "{lasting} In the joint nearest to its limit, {}. A motion that breaks a limit is refused.",
+            used.join(", and ")
+        ),
+    };
     Some(Figure { caption, panels })
 }
 

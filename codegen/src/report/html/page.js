@@ -61,7 +61,7 @@
     if (axis.logarithmic) {
       low = Math.log10(Math.max(low, high * 1e-10));
       high = Math.log10(high);
-      if (high - low < 1) [low, high] = [(low + high) / 2 - 0.55, (low + high) / 2 + 0.55];
+      if (high - low < 0.6) [low, high] = [(low + high) / 2 - 0.3, (low + high) / 2 + 0.3];
       if (!tight) [low, high] = [low - 0.06 * (high - low), high + 0.06 * (high - low)];
     } else {
       if (high === low) [low, high] = [low - Math.max(Math.abs(low) / 2, 1e-3), high + Math.max(Math.abs(high) / 2, 1e-3)];
@@ -145,6 +145,7 @@
 
   // Drawing.
 
+  const EDGE = 18;
   const LOW = 220;
   const TALL = 320;
   const STEPS = 101;
@@ -153,7 +154,7 @@
     const out = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "drawing" });
     for (const value of y.scale.ticks) {
       const at = y.scale.at(value);
-      out.append(svg("line", { class: "grid", x1: left, x2: width - 10, y1: at, y2: at }));
+      out.append(svg("line", { class: "grid", x1: left, x2: width - EDGE, y1: at, y2: at }));
       out.append(svg("text", { class: "end", x: left - 6, y: at + 4 }, tick(value, y.axis)));
     }
     for (const value of x.scale.ticks) {
@@ -161,8 +162,8 @@
       out.append(svg("line", { class: "axis", x1: at, x2: at, y1: bottom, y2: bottom + 4 }));
       out.append(svg("text", { class: "middle", x: at, y: bottom + 17 }, tick(value, x.axis)));
     }
-    out.append(svg("line", { class: "axis", x1: left, x2: width - 10, y1: bottom, y2: bottom }));
-    out.append(svg("text", { class: "middle", x: (left + width - 10) / 2, y: height - 3 }, named(x.axis)));
+    out.append(svg("line", { class: "axis", x1: left, x2: width - EDGE, y1: bottom, y2: bottom }));
+    out.append(svg("text", { class: "middle", x: (left + width - EDGE) / 2, y: height - 3 }, named(x.axis)));
     const middle = (8 + bottom) / 2;
     out.append(svg("text", { class: "middle", transform: `translate(13 ${middle}) rotate(-90)` }, named(y.axis)));
     return out;
@@ -203,7 +204,7 @@
     // As high as what stands beside it.
     const HEIGHT = figure.panels.some((other) => other.kind === "dots") ? TALL : LOW;
     const [left, bottom] = [62, HEIGHT - 38];
-    const x = scale(panel.series.flatMap((s) => s.x), panel.x, [left, width - 10], width / 80, !panel.x.logarithmic);
+    const x = scale(panel.series.flatMap((s) => s.x), panel.x, [left, width - EDGE], width / 80, !panel.x.logarithmic);
     const y = scale(panel.series.flatMap((s) => s.y.concat(s.low ?? [])), panel.y, [bottom, 8], 5);
     const out = frame(width, HEIGHT, { scale: x, axis: panel.x }, { scale: y, axis: panel.y }, left, bottom);
     for (const series of panel.series) {
@@ -217,7 +218,7 @@
     out.append(marks);
     // Few points are walked through one by one, a curve in even steps.
     const own = [...new Set(panel.series.flatMap((s) => s.x))].sort((a, b) => a - b);
-    const stops = panel.x.logarithmic ? own : Array.from({ length: STEPS }, (_, k) => x.back(left + ((width - 10 - left) * k) / (STEPS - 1)));
+    const stops = panel.x.logarithmic ? own : Array.from({ length: STEPS }, (_, k) => x.back(left + ((width - EDGE - left) * k) / (STEPS - 1)));
     const words = (k) => {
       const rows = [`${panel.x.name} ${withUnit(stops[k], panel.x)}`];
       for (const series of panel.series) {
@@ -304,7 +305,7 @@
     const height = TALL;
     const [left, bottom] = [62, height - 38];
     const errors = panel.dots.flatMap((dot) => [dot.certified, dot.found]);
-    const x = scale(panel.dots.map((dot) => dot.x), panel.x, [left, width - 10], width / 90);
+    const x = scale(panel.dots.map((dot) => dot.x), panel.x, [left, width - EDGE], width / 90);
     const y = scale(errors, panel.y, [bottom - 6, 8], 6);
     const out = frame(width, height, { scale: x, axis: panel.x }, { scale: y, axis: panel.y }, left, bottom);
     const place = (dot) => [x.at(dot.x), y.at(dot.certified ?? panel.y.least)];
@@ -318,7 +319,7 @@
       const chosen = k === current;
       out.append(svg("circle", { class: `dot certified${chosen ? " chosen" : ""}`, cx: px, cy: py, r: chosen ? 7 : 5 }));
       const wide = 6.6 * dot.label.length;
-      const atEnd = px + 10 + wide > width - 10;
+      const atEnd = px + 10 + wide > width - EDGE;
       let ty = py + 4;
       const hit = (t) => taken.some((other) => Math.abs(other[1] - t) < 13 && Math.abs(other[0] - px) < wide + 12);
       while (hit(ty) && ty > 20) ty -= 13;
@@ -501,7 +502,7 @@
   function breadth(panel, figure) {
     if (["arm", "tiles"].includes(panel.kind) || figure.panels.length === 1) return "wide";
     if (panel.kind === "bars" && panel.rows.length > 9) return "wide";
-    if (panel.kind === "table") return panel.head.length > 6 ? "wide" : "broad";
+    if (panel.kind === "table") return panel.head.length > 7 ? "wide" : "broad";
     return panel.kind === "dots" ? "broad" : "one";
   }
 

@@ -7,6 +7,7 @@ use super::study::Study;
 use super::words::{self, counted};
 use crate::domain::Measure;
 use crate::emit::functions;
+use crate::number::percent;
 use crate::reduction::{Share, shares};
 
 /// Functions whose shares are shown.
@@ -38,11 +39,7 @@ pub(super) fn figure(study: &Study) -> Figure {
         Bar {
             label: lagrangian.functions[function].to_string(),
             values: vec![100.0 * share],
-            note: format!(
-                "{}, together {}",
-                words::percent(share, false),
-                words::percent(sum.min(1.0), false)
-            ),
+            note: format!("{}, together {}", words::percent(share, false), percent(100.0 * sum.min(1.0))),
             kept: all || kept.contains(&function),
         }
     });

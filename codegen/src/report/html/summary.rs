@@ -34,7 +34,7 @@ pub(super) fn figure(study: &Study) -> Figure {
         tiles.push(Tile { name: "Guarantee", value, note });
     }
     if let Some(design) = generation.design() {
-        let note = format!("longest stable: {}", words::time(design.guarantee.period_max));
+        let note = format!("longest stable: {}", words::time_down(design.guarantee.period_max));
         tiles.push(Tile { name: "Control period", value: words::time(design.period), note });
     }
     let lines = study.module.lines().count();

@@ -1,6 +1,7 @@
 //! Numbers for people: three digits, a unit, and a bound never on the wrong side.
 
 use crate::arm::JointKind;
+use crate::bounds::down;
 use crate::number::short;
 
 /// A length or an angle with its unit: `20.3 mrad`, `1.57 rad`, `0.27 mm`. `up` for a bound: never below.
@@ -23,6 +24,20 @@ pub(super) fn position(x: f64, kind: JointKind, up: bool) -> String {
 /// A time with its unit: `1 ms`, `2.35 s`.
 pub(super) fn time(x: f64) -> String {
     if x != 0.0 && x.abs() < 0.1 { format!("{} ms", plain(1e3 * x)) } else { format!("{} s", plain(x)) }
+}
+
+/// The same, never later than `x`.
+pub(super) fn time_down(x: f64) -> String {
+    time(down(x, 3))
+}
+
+/// The same, never earlier than `x`.
+pub(super) fn time_up(x: f64) -> String {
+    if x != 0.0 && x.abs() < 0.1 {
+        format!("{} ms", trimmed(three(1e3 * x, true)))
+    } else {
+        format!("{} s", trimmed(three(x, true)))
+    }
 }
 
 /// A fraction as a percentage of three digits; `up` for a bound: never below.
@@ -99,6 +114,7 @@ mod tests {
         assert_eq!(position(2.7e-4, slide, false), "0.270 mm");
         assert_eq!(position(0.0, slide, true), "0 m");
         assert_eq!((time(0.001), time(3.0)), ("1 ms".to_string(), "3 s".to_string()));
+        assert_eq!((time_down(4.1079e-3), time_up(0.8371)), ("4.1 ms".to_string(), "0.838 s".to_string()));
         assert_eq!(percent(0.5667, false), "56.7 %");
         assert_eq!(percent(1e-9, true), "below 0.001 %");
         assert_eq!((three(-1234.0, false), plain(1e-9)), ("−1230".to_string(), "1.00e-9".to_string()));
