@@ -65,7 +65,7 @@ impl Report {
 }
 
 /// Most numbers of functions among the sizes.
-const COUNTS: usize = 3;
+const COUNTS: usize = 4;
 
 /// The other sizes of the slider: the exact model, tolerances from 1 % on, and some numbers of functions, fewer than all.
 fn others(loaded: &Loaded) -> Result<Vec<Size>, Error> {

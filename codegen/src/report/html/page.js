@@ -427,7 +427,7 @@
     }));
     const body = html("tbody", {}, ...panel.rows.map((cells) => row(cells, false)));
     const out = html("table", {}, html("caption", {}, panel.title), html("thead", {}, row(panel.head, true)), body);
-    return html("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": panel.title }, out);
+    return html("section", { class: "scroll", tabindex: "0", "aria-label": panel.title }, out);
   }
 
   function tiles(panel) {
@@ -502,7 +502,7 @@
   function breadth(panel, figure) {
     if (["arm", "tiles"].includes(panel.kind) || figure.panels.length === 1) return "wide";
     if (panel.kind === "bars" && panel.rows.length > 9) return "wide";
-    if (panel.kind === "table") return panel.head.length > 7 ? "wide" : "broad";
+    if (panel.kind === "table") return panel.head.length > 6 ? "wide" : "broad";
     return panel.kind === "dots" ? "broad" : "one";
   }
 
@@ -517,7 +517,7 @@
     node.dataset.state = state;
     const box = node.querySelector(".panels");
     box.replaceChildren();
-    node.querySelectorAll(".legend, .data").forEach((old) => old.remove());
+    section.querySelectorAll(".legend, .data").forEach((old) => old.remove());
     box.before(...legend(figure.panels));
     const made = figure.panels.map((panel) => {
       const out = html("div", { class: `panel ${breadth(panel, figure)}` });
@@ -533,7 +533,7 @@
       if (draw) made[k].append(plot(panel.title, draw(panel, Math.max(made[k].clientWidth, 260), figure)));
     });
     node.querySelector("figcaption").textContent = figure.caption;
-    node.append(files(id, figure));
+    if (figure.panels.length > 0) node.after(files(id, figure));
     if (id === "sizes") node.querySelectorAll("tbody tr").forEach((row, k) => row.classList.toggle("now", k === current));
   }
 
@@ -600,7 +600,11 @@
     const rows = differenceRows(from, to);
     const changed = rows.map((row) => row[0] !== "same");
     const near = rows.map((_, k) => changed.slice(Math.max(0, k - CONTEXT), k + CONTEXT + 1).includes(true));
-    const out = html("div", { class: "code", tabindex: "0", role: "region", "aria-label": "Difference of the modules" });
+    // A gap of a line or two takes as much room as the lines.
+    for (let k = 1; k + 2 < near.length; k++) {
+      if (near[k - 1] && !near[k] && (near[k + 1] || near[k + 2])) near[k] = true;
+    }
+    const out = html("section", { class: "code", tabindex: "0", "aria-label": "Difference of the modules" });
     let hidden = 0;
     let shown = 0;
     const flush = () => {
@@ -646,7 +650,7 @@
       return;
     }
     if (base < 0) {
-      const code = html("div", { class: "code", tabindex: "0", role: "region", "aria-label": "Module" });
+      const code = html("section", { class: "code", tabindex: "0", "aria-label": "Module" });
       for (const line of own.slice(0, MOST_ROWS)) code.append(html("span", {}, data.lines[line] || " "));
       words.textContent = own.length > MOST_ROWS ? `the first ${MOST_ROWS} of ${own.length} lines` : `${own.length} lines`;
       box.replaceChildren(pick, code);

@@ -194,7 +194,7 @@ fn code(out: &mut String) {
     out.push_str(
         "<section id=\"code\" aria-labelledby=\"code-heading\">\n<h2 id=\"code-heading\">Code</h2>\n\
          <figure>\n<div id=\"difference\"></div>\n<figcaption>The module of this size, or what differs from that of another size. \
-         Names of functions stay the same from size to size, so only what a size adds or leaves out shows.</figcaption>\n\
+         Names stay the same from size to size, so what shows is what a size adds, leaves out or computes in another way.</figcaption>\n\
          </figure>\n</section>\n",
     );
 }

@@ -16,14 +16,20 @@ const SHOWN: usize = 16;
 const LEAST: f64 = 1e-4;
 /// Values of functions at points that are held at once, at most.
 const MOST_VALUES: usize = 20_000_000;
+/// Points that are too few to rank functions by.
+const FEWEST_POINTS: usize = 200;
 
 /// The order of selection with the share of each function; outlines for what this size leaves out.
 pub(super) fn figure(study: &Study) -> Figure {
     let generation = &study.generation;
     let (lagrangian, reduced) = (generation.lagrangian(), generation.reduced());
-    let measure = Measure::new(generation.domain(), generation.arm());
+    let mut measure = Measure::new(generation.domain(), generation.arm());
     let count = lagrangian.functions.len();
-    if count * measure.points.len() > MOST_VALUES {
+    // Shares are parts of a whole: some of the points tell them as well.
+    let every = (count * measure.points.len()).div_ceil(MOST_VALUES).max(1);
+    measure.points = measure.points.into_iter().step_by(every).collect();
+    measure.weights = measure.weights.into_iter().step_by(every).collect();
+    if measure.points.len() < FEWEST_POINTS {
         let caption = format!(
             "The exact model has {count} functions: too many to rank here. This size keeps {}.",
             kept_in_words(study)

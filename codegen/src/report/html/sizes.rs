@@ -2,13 +2,14 @@
 
 use super::figure::{Axis, Dot, Figure, Lines, Panel, Role, Series, Table, drawn_up};
 use super::study::Study;
-use super::words;
+use super::words::{self, counted};
 
 /// The smallest error that is drawn, % of the peak torque: what is below it is as good as exact.
 pub(super) const LEAST: f64 = 1e-4;
 
-/// Cost and error of every size, as dots and as a table; the same for all sizes.
-pub(super) fn figure(studies: &[Study]) -> Figure {
+/// Cost and error of every size, as dots and as a table; the same for all sizes. `twins` sizes are left out, since they are the exact
+/// model.
+pub(super) fn figure(studies: &[Study], twins: usize) -> Figure {
     let mut panels = vec![Panel::Dots {
         title: "Torque error against cost".to_string(),
         x: Axis::linear("weighted operations of a step", ""),
@@ -17,8 +18,17 @@ pub(super) fn figure(studies: &[Study]) -> Figure {
     }];
     panels.extend(by_functions(studies).map(Panel::Lines));
     panels.push(Panel::Table(table(studies)));
+    let twins = match twins {
+        0 => String::new(),
+        count => format!(
+            " {} within which nothing is cheaper than the exact model {} not shown apart from it.",
+            counted(count, "tolerance"),
+            if count == 1 { "is" } else { "are" }
+        ),
+    };
     let caption = format!(
-        "Each dot is a model size; left and low is good. A size with another one both to its left and below it is never worth taking. {}",
+        "Each dot is a model size; left and low is good. A size with another one both to its left and below it is never worth taking. \
+         {}{twins}",
         cheapest(studies)
     );
     Figure { caption, panels }

@@ -136,7 +136,7 @@ fn an_arm_alone_has_a_page_as_well() {
     fs::write(&path, spec.to_string()).expect("written");
     let shown = data(&page(&text(&path), &folder.path().join("arm.html"), "2", &["--one-size"]));
     let figures: Vec<&String> = shown["sizes"][0]["figures"].as_object().expect("figures").keys().collect();
-    assert_eq!(figures, ["arm", "bounds", "domain", "functions", "operations", "sizes", "summary"]);
+    assert_eq!(figures, ["arm", "bounds", "domain", "functions", "operations", "summary"]);
 }
 
 #[test]
