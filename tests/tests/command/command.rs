@@ -1,6 +1,10 @@
 //! What the command does with good input: exit codes, files, and numbers that agree with one another.
 
+mod diff;
 mod evaluate;
 mod generate;
+mod init;
+mod manners;
 mod progress;
 mod show;
+mod sweep;
