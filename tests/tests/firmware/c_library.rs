@@ -7,13 +7,21 @@ use std::sync::LazyLock;
 use gramforge::Generation;
 
 use crate::COUNTS;
-use crate::built::{CORTEX, MADE, builds, host, write};
+use crate::built::{CORTEX, MADE, host, write};
 use crate::elf::Image;
 use crate::results::Results;
 use crate::toolchain::{cargo, firmware, output, prefix, qemu, scratch};
 
 /// The modules that `tests/firmware/c` calls.
 pub const MODULES: [&str; 4] = ["arm3_xi2", "arm3_adaptive", "puma560_one_percent", "panda_exact"];
+
+/// The most instructions of a whole step in C, reference included, at level 3, and the most bytes of stack.
+const LIMITS: [(&str, u64, u64); 4] = [
+    ("arm3_xi2", 550, 512),
+    ("arm3_adaptive", 700, 512),
+    ("puma560_one_percent", 1050, 512),
+    ("panda_exact", 1750, 768),
+];
 
 /// The program in C with the libraries of all modules, at one level of optimisation.
 struct Program {
@@ -123,5 +131,20 @@ fn nothing_in_a_program_in_c_panics_allocates_formats_or_computes_in_double_prec
         }
         let found = image.foul();
         assert!(found.is_empty(), "level {level}: {found:?}");
+    }
+}
+
+#[test]
+fn a_step_in_c_takes_no_more_instructions_and_stack_than_stated() {
+    let Some(programs) = programs() else { return };
+    for (module, instructions, stack) in LIMITS {
+        let [fast, small] = [0, 1].map(|k: usize| programs[k].results.value(module, "instructions_worst"));
+        for Program { level, results, .. } in programs {
+            let (worst, used) = (results.value(module, "instructions_worst"), results.value(module, "stack"));
+            println!("{module} in C, level {level}: worst {worst} instructions; stack {used} bytes");
+            assert!(used <= stack, "{module}, level {level}: {used} bytes of stack");
+        }
+        assert!(fast <= instructions, "{module}: {fast} instructions");
+        assert!(10 * small <= 13 * fast, "{module}: {small} instructions in small code, {fast} in fast");
     }
 }
