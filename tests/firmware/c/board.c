@@ -6,11 +6,12 @@ extern uint32_t __bss[], __bss_end[], __data[], __data_end[], __data_load[], __s
 int main(void);
 void reset(void);
 
-static void semihosting(uint32_t operation, const void *arguments)
+static uint32_t semihosting(uint32_t operation, const uint32_t *arguments)
 {
     register uint32_t r0 __asm__("r0") = operation;
-    register const void *r1 __asm__("r1") = arguments;
+    register const uint32_t *r1 __asm__("r1") = arguments;
     __asm__ volatile("bkpt 0xAB" : "+r"(r0) : "r"(r1) : "memory");
+    return r0;
 }
 
 static void leave(uint32_t code)
@@ -57,10 +58,21 @@ void reset(void)
     run();
 }
 
-/* Prints to QEMU's standard output: SYS_WRITE0. */
+/* Prints to QEMU's standard output. */
 static void print(const char *text)
 {
-    semihosting(4, text);
+    static uint32_t handle;
+    uint32_t length = 0;
+    while (text[length] != 0)
+        length++;
+    if (handle == 0) {
+        /* SYS_OPEN of ":tt" for writing is the standard output. */
+        const uint32_t open[] = {(uint32_t)(uintptr_t)":tt", 4, 3};
+        handle = semihosting(1, open);
+    }
+    /* SYS_WRITE. */
+    const uint32_t write[] = {handle, (uint32_t)(uintptr_t)text, length};
+    semihosting(5, write);
 }
 
 void print_line(const char *module, const char *key, uint64_t value)

@@ -145,6 +145,7 @@ fn a_step_in_c_takes_no_more_instructions_and_stack_than_stated() {
             assert!(used <= stack, "{module}, level {level}: {used} bytes of stack");
         }
         assert!(fast <= instructions, "{module}: {fast} instructions");
-        assert!(10 * small <= 13 * fast, "{module}: {small} instructions in small code, {fast} in fast");
+        // In small code each input is copied by a call.
+        assert!(10 * small <= 14 * fast, "{module}: {small} instructions in small code, {fast} in fast");
     }
 }
