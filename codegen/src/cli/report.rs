@@ -20,8 +20,8 @@ use crate::spec::ModelSpec;
 /// time, with a slider over model sizes.
 ///
 /// The file holds all of its data and loads nothing: open it in any browser, print it, or send it.
-/// Example: gramforge report specs/arm.json --out arm.html
 #[derive(Debug, Args)]
+#[command(after_help = "Example: gramforge report specs/arm.json --out arm.html")]
 pub(super) struct Report {
     /// The specification file.
     spec: PathBuf,
