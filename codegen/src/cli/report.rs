@@ -13,7 +13,7 @@ use crate::output::write_if_changed;
 use crate::parallel::Parallelize;
 use crate::progress::{Progress, Silent, Stage};
 use crate::report::{ReportEffort, Study, counted, html_report};
-use crate::sizes::{Size, default_sizes};
+use crate::sizes::{Size, default_sizes, with_gains_of};
 use crate::spec::ModelSpec;
 
 /// Writes one HTML file with every figure of a specification: the arm, its motion, bounds, costs, the guarantee and the loop in
@@ -54,13 +54,15 @@ impl Report {
         let effort = ReportEffort { runs: self.runs as usize, guarantee: true };
         let others = if self.one_size { Vec::new() } else { others(loaded)? };
         let stage = Stage::new(progress, "model sizes", others.len() + 1);
-        let one = |size: Size| {
+        let one = |loaded: &Loaded, size: Size| {
             let _part = stage.part();
             // Stages of several sizes at once would be told in disorder.
             Study::new(loaded, &size, effort, &Silent)
         };
-        let own = one(Size::default())?;
-        Ok((own, others.into_par_iter().map(|size| one(size).ok()).filter_map(|study| study).collect()))
+        let own = one(loaded, Size::default())?;
+        let alike = with_gains_of(&own.generation);
+        let others = others.into_par_iter().map(|size| one(&alike, size).ok());
+        Ok((own, others.filter_map(|study| study).collect()))
     }
 }
 

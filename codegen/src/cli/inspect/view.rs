@@ -22,9 +22,9 @@ pub(super) fn view(generation: &Generation, size: usize, limits: Option<Limits>)
     let control = design.as_ref().map(|design| {
         let Envelope { v_max, level, position_error, velocity_error, speed } = &design.envelope;
         ControlView {
-            W: as_written(&design.w),
-            Pqq: as_written(&design.gains.pqq),
-            Omega: as_written(&design.omega),
+            W: MatrixSpec::of(&design.w),
+            Pqq: MatrixSpec::of(&design.gains.pqq),
+            Omega: MatrixSpec::of(&design.omega),
             boundary_layer: design.boundary_layer.as_deref(),
             robust_gain: match &design.robust_gain {
                 RobustGain::Constant(gain) => Some(gain),
@@ -187,15 +187,4 @@ fn domain_view(domain: &Domain) -> DomainView {
         Domain::Workspace(limits) => ("workspace", None, Some(limits.clone())),
     };
     DomainView { kind, position_error, position }
-}
-
-/// A gain as one would write it: its diagonal, where that is all.
-fn as_written(gain: &[Vec<f64>]) -> MatrixSpec {
-    let n = gain.len();
-    let diagonal = (0..n).all(|i| (0..n).all(|j| i == j || gain[i][j] == 0.0));
-    if diagonal {
-        MatrixSpec::Diagonal((0..n).map(|i| gain[i][i]).collect())
-    } else {
-        MatrixSpec::Full(gain.to_vec())
-    }
 }
