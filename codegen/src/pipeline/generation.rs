@@ -92,8 +92,7 @@ impl Generation {
         let _stage = Stage::new(means.progress, "torque error of the law", 1);
         let certified = &designed.certified;
         let rates = designed.design.as_ref().and_then(|design| design.rates.as_ref());
-        let (error, proved) = (certified.error(), &certified.proved);
-        let met = rates.map(|rates| error.met(&proved.certificates, &proved.bounds, rates));
+        let met = rates.map(|rates| certified.error().met(certified.torque_error(rates, None), rates));
         Self { designed, met }
     }
 
