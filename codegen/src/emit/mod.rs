@@ -9,6 +9,7 @@ mod guarantee;
 mod literal;
 mod names;
 mod reference;
+mod reference_limits;
 mod regression;
 mod rounding;
 mod statements;
@@ -19,11 +20,12 @@ mod type_name;
 pub use c_header::{CFile, c_interface};
 pub use type_name::type_name;
 
-#[cfg(feature = "cli")]
 pub(crate) use docs::{
     domain as domain_in_words, functions, met as met_in_words, rates as rates_in_words,
     torque as torque_in_words,
 };
+#[cfg(feature = "cli")]
+pub(crate) use reference_limits::{ABSOLUTE_VALUES, COMPARISONS};
 
 use std::path::Path;
 
@@ -86,6 +88,8 @@ pub struct Module<'a> {
     pub step: Option<&'a StepGraph>,
     /// What the step rounds by.
     pub rounding: Option<&'a StepRounding>,
+    /// Whether the step reports a desired motion beyond its limits.
+    pub check_reference: bool,
     /// Number type of the code.
     pub scalar: ScalarSpec,
 }

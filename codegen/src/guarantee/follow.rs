@@ -17,8 +17,6 @@ const SETTLED: f64 = 8.0;
 const ROOM: f64 = 1.05;
 /// The same of a box that is to hold after a repetition: the errors come back into it only as fast as they die away.
 const ROOMS: [f64; 4] = [1.05, 1.5, 2.5, 6.0];
-/// Periods that are followed beyond errors that were not declared, to see how large they get.
-const AHEAD: usize = 256;
 /// Trials to find such a box, and most periods that it may take to come back into it.
 const TRIALS: usize = 12;
 const RETURN: usize = 4000;
@@ -98,6 +96,11 @@ pub(super) fn follow(problem: &Problem, declared: &[f64], settle: Option<f64>) -
         return Err(Open::Long(last));
     }
     let mut claim = Claim::new(problem, declared, settle, n);
+    // Where errors are wider than declared, those of the next periods say by how much.
+    let ahead = |open: Open, funnel: &mut Funnel| match open {
+        Open::Wider(most) => Open::Wider(funnel.ahead(most)),
+        open => open,
+    };
     claim.start(&funnel.set).map_err(|open| ahead(open, &mut funnel))?;
     while (funnel.index as f64) < last {
         let step = funnel.step().map_err(Open::Lost)?;
@@ -117,17 +120,6 @@ pub(super) fn follow(problem: &Problem, declared: &[f64], settle: Option<f64>) -
         claim.out.valid_until = Some(last * problem.period);
     }
     Ok(claim.finished())
-}
-
-/// The largest errors of the next periods, where they go beyond the declared ones. Nothing is claimed of them: the torque error grows
-/// with them.
-fn ahead(open: Open, funnel: &mut Funnel) -> Open {
-    let Open::Wider(mut most) = open else { return open };
-    for _ in 0..AHEAD {
-        let Ok(step) = funnel.step() else { break };
-        most.iter_mut().zip(step.hull).for_each(|(most, x)| *most = most.max(x));
-    }
-    Open::Wider(most)
 }
 
 impl<'a> Claim<'a> {

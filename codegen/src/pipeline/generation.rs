@@ -134,6 +134,7 @@ impl Generation {
             statement: self.statement(),
             step: self.step().filter(|_| self.spec().emit.law == LawCodeSpec::Inline),
             rounding: self.rounding(),
+            check_reference: self.spec().emit.check_reference,
             scalar: self.spec().emit.scalar,
         })
     }
