@@ -238,8 +238,7 @@ pub(super) fn with_problem<T>(
     f: impl FnOnce(&DesignProblem) -> T,
 ) -> T {
     let (checked, proved) = (&certified.checked, &certified.proved);
-    let error = certified.error();
-    let rounding = error.rounding();
+    let rounding = certified.error().rounding();
     f(&DesignProblem {
         file: &checked.loaded.path,
         control,
@@ -255,7 +254,7 @@ pub(super) fn with_problem<T>(
         uncertainty: &checked.built.uncertainty,
         regression: proved.regression.as_ref(),
         seek_tube: means.effort.seek_tube,
-        torque_error: &|rates| error.torque_error(&proved.certificates, &proved.bounds, rates),
+        torque_error: &|rates| certified.torque_error(rates, None),
         progress: means.progress,
     })
 }

@@ -2,12 +2,12 @@
 
 use super::{
     AdaptationView, BoundsView, ControlView, Costs, DomainView, EstimateView, GuaranteeView, Inspection,
-    PromiseView, RangeView, RatesView, StepCosts,
+    PromiseView, RangeView, RatesView, ReferenceView, StepCosts,
 };
 use crate::bounds::{Bounds, Effort, Rates, estimate, factor_bounds, six_digits_up, worst_ratio};
 use crate::control::{Envelope, RobustGain, StepGraph};
 use crate::domain::Domain;
-use crate::emit::functions;
+use crate::emit::{ABSOLUTE_VALUES, COMPARISONS, functions};
 use crate::guarantee::Sampled;
 use crate::pipeline::{Generation, Limits};
 use crate::reduction::Dictionary;
@@ -85,9 +85,24 @@ pub(super) fn view(generation: &Generation, size: usize, limits: Option<Limits>)
         size,
         control,
         guarantee: promise(generation, limits),
+        reference: reference(generation),
         continuous,
         warnings: generation.warnings(),
     }
+}
+
+fn reference(generation: &Generation) -> Option<ReferenceView<'_>> {
+    let limits = generation.design()?.reference.as_ref()?;
+    let checked = generation.spec().emit.check_reference;
+    let count = |each: usize| if checked { each * limits.velocity.len() } else { 0 };
+    Some(ReferenceView {
+        position: &limits.position,
+        velocity: &limits.velocity,
+        acceleration: &limits.acceleration,
+        checked,
+        comparisons: count(COMPARISONS),
+        absolute_values: count(ABSOLUTE_VALUES),
+    })
 }
 
 fn promise(generation: &Generation, limits: Option<Limits>) -> Option<PromiseView<'_>> {
