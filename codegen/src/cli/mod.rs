@@ -10,6 +10,7 @@ mod inspect;
 mod manual;
 mod print;
 mod progress;
+mod report;
 mod reproduce;
 mod settings;
 mod simulate;
@@ -48,6 +49,7 @@ enum Command {
     Simulate(simulate::Simulate),
     Sweep(sweep::Sweep),
     Diff(diff::Diff),
+    Report(report::Report),
     Reproduce(reproduce::Reproduce),
     /// Prints the JSON Schema of specification files.
     #[command(after_help = "Example: gramforge schema > gramforge.schema.json")]
@@ -82,6 +84,7 @@ impl Command {
             Command::Diff(command) => {
                 return command.run().map(|(text, differs)| Done { text, code: u8::from(differs) });
             }
+            Command::Report(command) => command.run(),
             Command::Reproduce(command) => command.run(),
             Command::Schema => crate::load::schema().and_then(json),
             Command::Completions(command) => command.run(),
@@ -93,7 +96,11 @@ impl Command {
     /// Whether the result, and then faults too, is wanted as JSON.
     fn json(&self) -> bool {
         match self {
-            Command::Init(_) | Command::Schema | Command::Completions(_) | Command::Man(_) => false,
+            Command::Init(_)
+            | Command::Report(_)
+            | Command::Schema
+            | Command::Completions(_)
+            | Command::Man(_) => false,
             Command::Inspect(command) => command.json,
             Command::Evaluate(command) => command.json,
             Command::Generate(command) => command.json,

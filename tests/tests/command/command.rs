@@ -6,5 +6,6 @@ mod generate;
 mod init;
 mod manners;
 mod progress;
+mod report;
 mod show;
 mod sweep;
