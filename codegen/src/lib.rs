@@ -23,6 +23,8 @@
 mod arm;
 mod bounds;
 mod cache;
+#[cfg(feature = "cli")]
+mod changes;
 mod check;
 mod choose;
 #[cfg(feature = "cli")]
@@ -35,6 +37,8 @@ mod emit;
 mod error;
 mod graph;
 mod guarantee;
+#[cfg(feature = "cli")]
+mod init;
 mod lagrangian;
 pub mod load;
 mod model;
@@ -81,7 +85,7 @@ pub mod internals {
         output pipeline progress reduction text torque trig
     }
     #[cfg(feature = "cli")]
-    open! { cli report reproduce sizes }
+    open! { changes cli report reproduce sizes }
     #[cfg(any(feature = "simulate", test))]
     open! { simulate }
 }

@@ -66,8 +66,13 @@ enum Wanted {
 fn run(loaded: Loaded, extent: Extent, means: Means) -> Result<Generation, Error> {
     threads::check()?;
     let means = Means { judges: extent != Extent::Unjudged, ..means };
-    let checked = checked(loaded.clone(), extent).map_err(|error| expanded::with_count(error, &loaded))?;
-    Ok(Generation::concluded(chosen(checked, means)?, means))
+    let made = || {
+        let checked =
+            checked(loaded.clone(), extent).map_err(|error| expanded::with_count(error, &loaded))?;
+        chosen(checked, means)
+    };
+    let designed = made().map_err(|error| error.pointing_into_files(&loaded))?;
+    Ok(Generation::concluded(designed, means))
 }
 
 /// The controller about the model that the specification asks for, or about the exact one where that leaves the choice

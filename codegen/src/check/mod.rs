@@ -50,8 +50,8 @@ pub fn prepare(path: &Path) -> Result<Checked, Error> {
 /// # Errors
 /// [`Error::Input`] where the file cannot be read, else with every fault.
 pub fn read(path: &Path) -> Result<Loaded, Error> {
-    let Draft { loaded, mut faults, lost } = draft(path)?;
-    let Some(loaded) = loaded else { return Err(faults.into_error()) };
+    let Draft { loaded, mut faults, lost, text } = draft(path)?;
+    let Some(loaded) = loaded else { return Err(faults.into_error().pointing_into(path, &text)) };
     if faults.is_empty() {
         return Ok(loaded);
     }
@@ -65,7 +65,7 @@ pub fn read(path: &Path) -> Result<Loaded, Error> {
         !(gone(section) || gone("model") && together.contains(&fault.field.as_str()))
     };
     faults.extend(values.list().iter().filter(known).cloned());
-    Err(faults.into_error())
+    Err(faults.into_error().pointing_into_files(&loaded))
 }
 
 /// Checks a specification that is read already.
@@ -75,7 +75,7 @@ pub fn read(path: &Path) -> Result<Loaded, Error> {
 pub fn checked(loaded: Loaded, extent: Extent) -> Result<Checked, Error> {
     let mut faults = Diagnostics::of(&loaded.path);
     let (built, motion) = examine(&loaded, extent, &mut faults);
-    faults.finish(())?;
+    faults.finish(()).map_err(|error| error.pointing_into_files(&loaded))?;
     let defect = |what: &str| Error::Internal(format!("{what} was lost in its check"));
     let built = built.ok_or_else(|| defect("the arm"))?;
     let spec = &loaded.spec;

@@ -12,9 +12,9 @@ use crate::cache::Cache;
 use crate::check::{Checked, Control, Extent, read};
 use crate::control::{Design, StepGraph, StepRounding};
 use crate::domain::Domain;
-use crate::emit::{CFile, Module, c_interface, emit};
+use crate::emit::{CFile, Facts, Module, c_interface, emit, functions};
 use crate::error::Error;
-use crate::graph::Graph;
+use crate::graph::{Graph, Operations};
 use crate::guarantee::Statement;
 use crate::lagrangian::Lagrangian;
 use crate::load::{Loaded, spec_hash};
@@ -146,8 +146,24 @@ impl Generation {
             statement: self.statement(),
             step: self.step().filter(|_| self.spec().emit.law == LawCodeSpec::Inline),
             rounding: self.rounding(),
+            facts: &self.facts(),
             scalar: self.spec().emit.scalar,
         })
+    }
+
+    /// What the module says of itself for programs.
+    fn facts(&self) -> Facts {
+        let kept = functions(self.lagrangian(), self.reduced());
+        let [operations, exact] = self.compared_operations();
+        Facts {
+            form: self.form().name().to_string(),
+            psi: kept.into_iter().zip(self.shares().iter().copied()).collect(),
+            operations: operations.unwrap_or_default(),
+            exact_operations: exact,
+            torque_error: self.torque().map(|torque| torque.error.clone()),
+            switching_gain: self.switching_gain(),
+            guarantee: self.statement().map(|statement| statement.kind.name().to_string()),
+        }
     }
 
     /// The controller with these gains and a constant robust gain, or the law's own bracket.
@@ -172,6 +188,12 @@ impl Generation {
     /// The specification.
     pub fn spec(&self) -> &Spec {
         &self.checked().loaded.spec
+    }
+
+    /// The specification as it was read, with the files that it names.
+    #[cfg(feature = "cli")]
+    pub(crate) fn loaded(&self) -> &Loaded {
+        &self.checked().loaded
     }
 
     /// The file that the specification was read from.
@@ -299,6 +321,20 @@ impl Generation {
     /// The step of the same law about the exact model; `None` without a controller, or for a law that learns.
     pub fn exact_step(&self) -> Option<&StepGraph> {
         self.designed.exact_step.as_ref()
+    }
+
+    /// Operations as the verdict compares them: of the step, or of the passivity torque without a controller, and of the same with
+    /// the exact model, which is `None` for a law that learns.
+    pub fn compared_operations(&self) -> [Option<Operations>; 2] {
+        match self.design() {
+            Some(_) => [self.step(), self.exact_step()].map(|step| step.map(StepGraph::operations)),
+            None => [self.code(), self.exact_code()].map(|code| Some(code.operations())),
+        }
+    }
+
+    /// How much of the model stands on each kept function, in their order: see [`crate::reduction::shares`].
+    pub fn shares(&self) -> &[f64] {
+        &self.proved().shares
     }
 
     /// The parameters of a law that learns; `None` for the other laws.

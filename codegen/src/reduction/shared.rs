@@ -57,9 +57,9 @@ fn selection<'a>(
     selection
 }
 
-/// A function with the part of the model that it carries.
+/// A function of the exact model with the part of the model that it carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Share {
+pub struct Chosen {
     /// Index into [`Lagrangian::functions`].
     pub function: usize,
     /// The part of Σ_m w_m ∫α_m² that it adds to those chosen before, from 0 to 1.
@@ -67,7 +67,7 @@ pub struct Share {
 }
 
 /// The first `functions` functions in the order in which [`shared`] chooses them, each with its share.
-pub fn shares(lagrangian: &Lagrangian, measure: &Measure, functions: usize) -> Vec<Share> {
+pub fn order_of_selection(lagrangian: &Lagrangian, measure: &Measure, functions: usize) -> Vec<Chosen> {
     let samples = Samples::new(lagrangian, measure);
     let weights: Vec<f64> = lagrangian.coefficients.iter().map(|c| weight(c, measure)).collect();
     let sum = |squares: &mut dyn Iterator<Item = f64>| -> f64 {
@@ -75,9 +75,9 @@ pub fn shares(lagrangian: &Lagrangian, measure: &Measure, functions: usize) -> V
     };
     let whole = sum(&mut samples.coefficients.iter().map(|alpha| dot(alpha, alpha)));
     let selection = selection(lagrangian, &samples, &weights, functions);
-    let share = |pick: &Pick| Share {
+    let share = |pick: &Pick| Chosen {
         function: pick.function,
-        share: sum(&mut pick.projections.iter().map(|p| p * p)) / whole,
+        share: if whole > 0.0 { sum(&mut pick.projections.iter().map(|p| p * p)) / whole } else { 0.0 },
     };
     selection.picks().iter().map(share).collect()
 }

@@ -26,8 +26,14 @@ pub fn default_sizes(loaded: &Loaded) -> Result<Vec<Size>, Error> {
         models.extend(TOLERANCES.map(|torque| ModelSpec::Tolerance { torque }));
     }
     let most = if terms > LONG { functions.min(FEW) } else { functions };
-    models.extend(counts(most).into_iter().map(|functions| ModelSpec::Shared { functions }));
+    let mut counts = counts(most);
     let own = loaded.spec.model.clone();
+    if let ModelSpec::Shared { functions } = own {
+        counts.push(functions);
+        counts.sort_unstable();
+        counts.dedup();
+    }
+    models.extend(counts.into_iter().map(|functions| ModelSpec::Shared { functions }));
     if !models.contains(&own) && own.tolerance() != Some(0.01) {
         models.push(own);
     }

@@ -1,13 +1,20 @@
 //! One specification at several model sizes: what each costs, and what it is wrong by.
 
 mod defaults;
+mod kept;
 mod label;
+mod plan;
+mod read;
 mod row;
 mod size;
+mod sweep;
 
 pub use defaults::default_sizes;
+pub use kept::{Kept, merged};
+pub use plan::{Entry, Plan, Shard};
 pub use row::{Counts, Gain, Promise, Row};
 pub use size::Size;
+pub use sweep::sweep;
 
 use crate::bounds::Effort;
 use crate::error::Error;

@@ -105,11 +105,7 @@ impl Row {
     pub fn new(size: &Size, generation: &Generation) -> Result<Self, Error> {
         let text = generation.module()?;
         let (design, torque) = (generation.design(), generation.torque());
-        let step = generation.step().map_or_else(|| generation.code().operations(), |step| step.operations());
-        let exact = match generation.design() {
-            Some(_) => generation.exact_step().map(|step| step.operations()),
-            None => Some(generation.exact_code().operations()),
-        };
+        let [operations, exact] = generation.compared_operations();
         let fraction = |i: usize| torque.filter(|torque| !torque.is_still(i)).map(|t| t.error[i] / t.peak[i]);
         let certified = design.map(|design| &design.guarantee).filter(|promised| promised.period_certified);
         Ok(Self {
@@ -118,7 +114,7 @@ impl Row {
             form: generation.form().name().to_string(),
             exact: generation.reduced().is_exact(),
             functions: functions(generation.lagrangian(), generation.reduced()).len(),
-            operations: step.into(),
+            operations: operations.unwrap_or_default().into(),
             exact_operations: exact.map(Counts::from),
             verdict: generation.verdict(),
             torque_error: torque.map(|torque| torque.error.clone()),

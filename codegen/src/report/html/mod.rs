@@ -1,6 +1,6 @@
 //! The report on one specification: a page of its own, with a figure for each question and a slider over model sizes.
 //!
-//! Words and numbers come from here. The page's script, `page.js`, only draws: it holds no knowledge of robots. The page
+//! Words and numbers come from here. The page's script, in `script/`, only draws: it holds no knowledge of robots. The page
 //! loads nothing.
 
 mod arm;

@@ -8,7 +8,7 @@ use super::words::{self, counted};
 use crate::domain::Measure;
 use crate::emit::functions;
 use crate::number::percent;
-use crate::reduction::{Share, shares};
+use crate::reduction::{Chosen, order_of_selection};
 
 /// Functions whose shares are shown.
 const SHOWN: usize = 16;
@@ -36,11 +36,11 @@ pub(super) fn figure(study: &Study) -> Figure {
         );
         return Figure { caption, panels: Vec::new() };
     }
-    let order = shares(lagrangian, &measure, SHOWN.min(count));
+    let order = order_of_selection(lagrangian, &measure, SHOWN.min(count));
     let kept: BTreeSet<usize> = reduced.selected.iter().copied().collect();
     let all = reduced.is_exact() || reduced.simplified_arm().is_some();
     let mut sum = 0.0;
-    let rows = order.iter().map(|&Share { function, share }| {
+    let rows = order.iter().map(|&Chosen { function, share }| {
         sum += share;
         Bar {
             label: lagrangian.functions[function].to_string(),
@@ -60,11 +60,11 @@ pub(super) fn figure(study: &Study) -> Figure {
     Figure { caption, panels: vec![Panel::Bars(bars)] }
 }
 
-fn caption(study: &Study, order: &[Share]) -> String {
+fn caption(study: &Study, order: &[Chosen]) -> String {
     let count = study.generation.lagrangian().functions.len();
     let mut sum = 0.0;
-    let enough = order.iter().position(|share| {
-        sum += share.share;
+    let enough = order.iter().position(|chosen| {
+        sum += chosen.share;
         sum >= 0.99
     });
     let ranked = match enough {
