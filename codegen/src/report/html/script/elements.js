@@ -5,8 +5,6 @@ const SVG = document.querySelector("svg").namespaceURI;
 const tip = document.getElementById("tip");
 let current = data.own;
 
-// Elements.
-
 function put(node, attributes, children) {
   for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
   node.append(...children);
