@@ -261,3 +261,17 @@ fn list(faults: &[Diagnostic]) -> String {
     }
     lines.join("\n")
 }
+
+/// A message behind its file `a.json`, line and column, which it must name unless it is about the whole file.
+#[cfg(test)]
+pub(crate) fn unplaced(message: &str) -> &str {
+    let rest = message.strip_prefix("a.json:").unwrap_or_else(|| panic!("no file in {message}"));
+    if let Some(whole) = rest.strip_prefix(' ') {
+        assert!(whole.starts_with("is "), "no place in {message}");
+        return whole;
+    }
+    let (place, rest) = rest.split_once(": ").unwrap_or_else(|| panic!("no place in {message}"));
+    let numbers: Vec<usize> = place.split(':').map(|number| number.parse().expect("a number")).collect();
+    assert!(numbers.len() == 2 && numbers.iter().all(|number| *number > 0), "{message}");
+    rest
+}

@@ -43,6 +43,7 @@ enum Page {
     Simulate,
     Sweep,
     Diff,
+    Report,
     Reproduce,
     Schema,
 }

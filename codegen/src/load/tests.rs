@@ -4,6 +4,8 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
+use crate::error::unplaced;
+
 use super::{Loaded, load, parse, spec_hash};
 
 const ARM3: &str = include_str!("../../../generated/specs/arm3_xi2.json");
@@ -26,18 +28,6 @@ fn expect(edit: impl Fn(&mut Value), lines: &[&str]) {
     for line in lines {
         assert!(found.iter().any(|f| f.starts_with(line)), "no {line:?} in\n{message}");
     }
-}
-
-/// A message behind its file, line and column, which it must name unless it is about the whole file.
-fn unplaced(message: &str) -> &str {
-    if let Some(whole) = message.strip_prefix("a.json: is ") {
-        return &message[message.len() - whole.len() - 3..];
-    }
-    let place = message.strip_prefix("a.json:").and_then(|rest| rest.split_once(": "));
-    let (place, rest) = place.unwrap_or_else(|| panic!("no place in {message}"));
-    let numbers: Vec<usize> = place.split(':').map(|number| number.parse().expect("a number")).collect();
-    assert!(numbers.len() == 2 && numbers.iter().all(|number| *number > 0), "{message}");
-    rest
 }
 
 fn remove(value: &mut Value, pointer: &str, name: &str) {
@@ -172,7 +162,7 @@ fn structural_faults_name_field_value_and_help() {
         &["control.compensate_coulomb: is 1; write true or false"],
     );
     expect(|v| v["arm"]["lock"] = json!({ "j": "up" }), &["arm.lock.j: is \"up\"; write a number"]);
-    expect(|v| *v = json!([]), &["is []; write an object with `name`, `arm`"]);
+    expect(|v| *v = json!([]), &["is []; write an object with `arm`"]);
 }
 
 #[test]

@@ -88,8 +88,9 @@ impl Generation {
     }
 
     /// All but what is promised of the sampled loop along a motion, which takes seconds: as [`Generation::with_progress`], but
-    /// [`Generation::statement`] is `None` there. Where the switching gain is `auto`, the cheaper step is taken; a request for
-    /// gains is answered by a level of V alone, and a guarantee that is required is not looked at.
+    /// [`Generation::statement`] is `None` there, and the module lacks `GUARANTEE` and `PERIOD_MAX`. Where the switching gain is
+    /// `auto`, the cheaper step is taken; a request for gains is answered by a level of V alone, and a guarantee that is
+    /// required is not looked at.
     ///
     /// # Errors
     /// As [`Generation::from_file`].

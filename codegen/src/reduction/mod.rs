@@ -27,7 +27,7 @@ pub use regression::{Learnt, Regression};
 pub use samples::Samples;
 pub use separate::{minimax_each, separate};
 use serde::{Deserialize, Serialize};
-pub use shared::{Chosen, order_of_selection, shared};
+pub use shared::{Ranked, ranked, shared};
 pub use shares::shares;
 pub use simplified_arm::{Expressed, SimplifiedArm, expressed};
 pub use sparse::{CandidateFunction, Group, Sparse, products};

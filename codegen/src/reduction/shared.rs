@@ -59,7 +59,7 @@ fn selection<'a>(
 
 /// A function of the exact model with the part of the model that it carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Chosen {
+pub struct Ranked {
     /// Index into [`Lagrangian::functions`].
     pub function: usize,
     /// The part of Σ_m w_m ∫α_m² that it adds to those chosen before, from 0 to 1.
@@ -67,7 +67,7 @@ pub struct Chosen {
 }
 
 /// The first `functions` functions in the order in which [`shared`] chooses them, each with its share.
-pub fn order_of_selection(lagrangian: &Lagrangian, measure: &Measure, functions: usize) -> Vec<Chosen> {
+pub fn ranked(lagrangian: &Lagrangian, measure: &Measure, functions: usize) -> Vec<Ranked> {
     let samples = Samples::new(lagrangian, measure);
     let weights: Vec<f64> = lagrangian.coefficients.iter().map(|c| weight(c, measure)).collect();
     let sum = |squares: &mut dyn Iterator<Item = f64>| -> f64 {
@@ -75,7 +75,7 @@ pub fn order_of_selection(lagrangian: &Lagrangian, measure: &Measure, functions:
     };
     let whole = sum(&mut samples.coefficients.iter().map(|alpha| dot(alpha, alpha)));
     let selection = selection(lagrangian, &samples, &weights, functions);
-    let share = |pick: &Pick| Chosen {
+    let share = |pick: &Pick| Ranked {
         function: pick.function,
         share: if whole > 0.0 { sum(&mut pick.projections.iter().map(|p| p * p)) / whole } else { 0.0 },
     };

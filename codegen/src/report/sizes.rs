@@ -1,13 +1,15 @@
 //! Tables, a figure and a CSV file of a sweep over model sizes.
 
+use std::ops::RangeInclusive;
+
 use super::grid::Grid;
 use crate::bounds::{percent_up, printed_down, printed_up};
 use crate::sizes::{Entry, Gain, Row};
 
 /// Most characters of a line of a table.
 const WIDTH: usize = 80;
-/// Most characters of a name in the first column.
-const NAME: usize = 24;
+/// Most characters of a name in the first column, as many as there is room for.
+const NAMES: RangeInclusive<usize> = 8..=24;
 /// A fraction of the peak torque below which only that is said.
 const LEAST: f64 = 1e-5;
 
@@ -15,22 +17,35 @@ const LEAST: f64 = 1e-5;
 /// were refused with their reasons.
 pub fn sizes_table(entries: &[&Entry], guarantee: bool) -> String {
     let several = entries.windows(2).any(|pair| pair[0].spec != pair[1].spec);
-    let rows: Vec<(String, &Row)> =
-        entries.iter().filter_map(|entry| Some((name(entry, several), entry.row.as_ref()?))).collect();
-    let mut parts = Vec::new();
-    if !rows.is_empty() {
-        parts.push(overview(&rows, guarantee));
-    }
-    let error = |row: &Row| row.torque_error.clone();
-    parts.extend(by_joint("Certified torque error by joint (N·m or N)", &rows, &error));
-    let gain = |row: &Row| row.switching_gain.clone();
-    parts.extend(by_joint("Largest switching gain by joint (N·m or N)", &rows, &gain));
+    let tables = |most: usize| tables(entries, several, most, guarantee);
+    let fits = |text: &String| text.lines().all(|line| line.chars().count() <= WIDTH);
+    // Names give way where the numbers need the room.
+    let fitting = NAMES.rev().map(tables).find(fits);
+    let mut parts = vec![fitting.unwrap_or_else(|| tables(*NAMES.start()))];
     let refused = entries.iter().filter_map(|entry| {
         let why = entry.refused.as_ref()?;
-        Some(format!("{}: refused: {why}\n", name(entry, several)))
+        Some(format!("{}: refused: {why}\n", whole_name(entry, several)))
     });
-    parts.extend(Some(refused.collect::<String>()).filter(|text| !text.is_empty()));
+    parts.push(refused.collect());
+    parts.retain(|part| !part.is_empty());
     parts.join("\n")
+}
+
+/// The tables, with names of `most` characters at most.
+fn tables(entries: &[&Entry], several: bool, most: usize, guarantee: bool) -> String {
+    let name = |entry: &Entry| shortened(whole_name(entry, several), most);
+    let rows: Vec<(String, &Row)> =
+        entries.iter().filter_map(|entry| Some((name(entry), entry.row.as_ref()?))).collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    let error = |row: &Row| row.torque_error.clone();
+    let gain = |row: &Row| row.switching_gain.clone();
+    let by_joint = [
+        by_joint("Certified torque error by joint (N·m or N)", &rows, &error),
+        by_joint("Largest switching gain by joint (N·m or N)", &rows, &gain),
+    ];
+    [Some(overview(&rows, guarantee))].into_iter().chain(by_joint).flatten().collect::<Vec<_>>().join("\n")
 }
 
 /// One row in a line, to be shown while others are still worked on.
@@ -45,13 +60,16 @@ pub fn size_line(entry: &Entry) -> String {
 }
 
 /// What a row is called; the specification counts where there are several.
-fn name(entry: &Entry, several: bool) -> String {
-    let whole = if several { format!("{} {}", entry.spec, entry.size) } else { entry.size.clone() };
-    if whole.chars().count() <= NAME {
-        return whole;
+fn whole_name(entry: &Entry, several: bool) -> String {
+    if several { format!("{} {}", entry.spec, entry.size) } else { entry.size.clone() }
+}
+
+/// The end of `name`, where it has more than `most` characters.
+fn shortened(name: String, most: usize) -> String {
+    match name.chars().count().checked_sub(most).filter(|more| *more > 0) {
+        Some(more) => std::iter::once('…').chain(name.chars().skip(more + 1)).collect(),
+        None => name,
     }
-    let kept: String = whole.chars().rev().take(NAME - 1).collect::<Vec<_>>().into_iter().rev().collect();
-    format!("…{kept}")
 }
 
 fn worst(row: &Row) -> String {
@@ -104,7 +122,7 @@ fn by_joint(
         rows.iter().filter_map(|(name, row)| Some((name, value(row)?))).collect();
     let joints = values.iter().map(|(_, values)| values.len()).max().filter(|joints| *joints > 0)?;
     // Two spaces and a number.
-    let room = (WIDTH - rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(NAME)) / 11;
+    let room = (WIDTH - rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0)) / 11;
     let mut out = format!("{title}\n\n");
     for first in (0..joints).step_by(room) {
         let shown = first..(first + room).min(joints);

@@ -8,7 +8,7 @@ use super::words::{self, counted};
 use crate::domain::Measure;
 use crate::emit::functions;
 use crate::number::percent;
-use crate::reduction::{Chosen, order_of_selection};
+use crate::reduction::{Ranked, ranked};
 
 /// Functions whose shares are shown.
 const SHOWN: usize = 16;
@@ -36,11 +36,11 @@ pub(super) fn figure(study: &Study) -> Figure {
         );
         return Figure { caption, panels: Vec::new() };
     }
-    let order = order_of_selection(lagrangian, &measure, SHOWN.min(count));
+    let order = ranked(lagrangian, &measure, SHOWN.min(count));
     let kept: BTreeSet<usize> = reduced.selected.iter().copied().collect();
     let all = reduced.is_exact() || reduced.simplified_arm().is_some();
     let mut sum = 0.0;
-    let rows = order.iter().map(|&Chosen { function, share }| {
+    let rows = order.iter().map(|&Ranked { function, share }| {
         sum += share;
         Bar {
             label: lagrangian.functions[function].to_string(),
@@ -60,7 +60,7 @@ pub(super) fn figure(study: &Study) -> Figure {
     Figure { caption, panels: vec![Panel::Bars(bars)] }
 }
 
-fn caption(study: &Study, order: &[Chosen]) -> String {
+fn caption(study: &Study, order: &[Ranked]) -> String {
     let count = study.generation.lagrangian().functions.len();
     let mut sum = 0.0;
     let enough = order.iter().position(|chosen| {

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::common::{committed, finish, gramforge, run, text};
 
-const COMMANDS: [&str; 11] = [
+const COMMANDS: [&str; 12] = [
     "init",
     "inspect",
     "evaluate",
@@ -14,6 +14,7 @@ const COMMANDS: [&str; 11] = [
     "simulate",
     "sweep",
     "diff",
+    "report",
     "reproduce",
     "schema",
     "completions",
@@ -32,7 +33,7 @@ fn every_command_has_help_with_an_example_and_a_page_of_the_manual() {
     }
     let page = run(["man"]).expect(0).stdout;
     assert!(page.contains(".TH gramforge 1"), "{page}");
-    for command in COMMANDS.iter().take(9) {
+    for command in COMMANDS.iter().take(10) {
         assert!(run(["man", command]).expect(0).stdout.contains(".SH SYNOPSIS"), "{command}");
         assert!(page.contains(command), "{command} is not in the manual");
     }
