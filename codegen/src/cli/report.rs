@@ -21,15 +21,18 @@ use crate::spec::ModelSpec;
 ///
 /// The file holds all of its data and loads nothing: open it in any browser, print it, or send it.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: gramforge report specs/arm.json --out arm.html")]
+#[command(after_help = "Example: gramforge report arm.json --out arm.html")]
 pub(super) struct Report {
     /// The specification file.
     spec: PathBuf,
     /// The HTML file; folders that are missing are made.
     #[arg(long, value_name = "FILE.html")]
     out: PathBuf,
+    /// Other sizes on the slider, such as exact, xi6 or 1%. Default: about eight from small to exact.
+    #[arg(long, value_delimiter = ',')]
+    sizes: Vec<Size>,
     /// Show the size of the specification alone, without a slider.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "sizes")]
     one_size: bool,
     /// Runs that seek the largest errors of each size.
     #[arg(long, default_value_t = 32, value_parser = clap::value_parser!(u32).range(..=10_000))]
@@ -52,7 +55,11 @@ impl Report {
     /// The specification's own size, which must succeed, and the others that can be had.
     fn studies(&self, loaded: &Loaded, progress: &dyn Progress) -> Result<(Study, Vec<Study>), Error> {
         let effort = ReportEffort { runs: self.runs as usize, guarantee: true };
-        let others = if self.one_size { Vec::new() } else { others(loaded)? };
+        let others = match (self.one_size, self.sizes.is_empty()) {
+            (true, _) => Vec::new(),
+            (false, true) => others(loaded)?,
+            (false, false) => self.sizes.clone(),
+        };
         let stage = Stage::new(progress, "model sizes", others.len() + 1);
         let one = |loaded: &Loaded, size: Size| {
             let _part = stage.part();
@@ -61,8 +68,10 @@ impl Report {
         };
         let own = one(loaded, Size::default())?;
         let alike = with_gains_of(&own.generation);
-        let others = others.into_par_iter().map(|size| one(&alike, size).ok());
-        Ok((own, others.filter_map(|study| study).collect()))
+        let others: Vec<Result<Study, Error>> = others.into_par_iter().map(|size| one(&alike, size)).collect();
+        // A size that nobody has named may be one that the specification cannot have.
+        let kept = others.into_iter().filter(|study| study.is_ok() || !self.sizes.is_empty());
+        Ok((own, kept.collect::<Result<_, _>>()?))
     }
 }
 
