@@ -2,6 +2,7 @@
 
 use gramforge_runtime::{ControlStep, Desired, Fault, OnFault, Quantity, StepController, TickReference};
 
+use crate::hash::Hash;
 use crate::modules::Case;
 use crate::print::line;
 use crate::states::Random;
@@ -9,7 +10,9 @@ use crate::states::Random;
 /// Gives a module infinite and NaN numbers at every place, and motions outside its domain. Prints how many outcomes were
 /// not as documented.
 pub fn refuse<S: ControlStep<N, P, Scalar = f32>, const N: usize, const P: usize>(case: &Case<S, N, P>) {
-    line(case.name, "not_finite_and_wrong", u64::from(not_finite(case)));
+    let (wrong, commands) = not_finite(case);
+    line(case.name, "not_finite_and_wrong", u64::from(wrong));
+    line(case.name, "not_finite_commands", commands.value());
     line(case.name, "outside_and_wrong", u64::from(outside(case)));
     let (wrong, saturated) = far(case);
     line(case.name, "far_and_wrong", u64::from(wrong));
@@ -25,12 +28,13 @@ const INPUTS: [Quantity; 5] = [
     Quantity::DesiredAcceleration,
 ];
 
-/// One infinite or NaN number at a time: the fault must name it, the command must be safe, the next step good.
+/// One infinite or NaN number at a time: the fault must name it, the command must be safe, the next step good. Returns how
+/// many were not, and the hash of the commands.
 fn not_finite<S: ControlStep<N, P, Scalar = f32>, const N: usize, const P: usize>(
     case: &Case<S, N, P>,
-) -> u32 {
+) -> (u32, Hash) {
     let good = case.reference.at(case.reference.end / 2);
-    let mut wrong = 0;
+    let (mut wrong, mut commands) = (0, Hash::default());
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for input in INPUTS {
             for joint in 0..N {
@@ -50,6 +54,7 @@ fn not_finite<S: ControlStep<N, P, Scalar = f32>, const N: usize, const P: usize
                 let learnt = *controller.learnt();
                 let right = match (before, controller.step(&q, &qd, &desired)) {
                     (Ok(before), Err(fault)) => {
+                        commands.vector(&fault.command);
                         fault.quantity == input
                             && fault.joint == joint
                             && safe::<S, N, P>(&fault, &before.torque)
@@ -62,7 +67,7 @@ fn not_finite<S: ControlStep<N, P, Scalar = f32>, const N: usize, const P: usize
             }
         }
     }
-    wrong
+    (wrong, commands)
 }
 
 /// Whether the command of a fault is what the policy says.

@@ -8,6 +8,7 @@ use gramforge_tests::edited;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
+use crate::c_library;
 use crate::results::Results;
 use crate::toolchain::{cargo, firmware, output, prefix, qemu, scratch};
 
@@ -83,7 +84,7 @@ pub static MADE: LazyLock<PathBuf> = LazyLock::new(|| {
     MODULES.par_iter().for_each(|(name, from)| {
         let made = edited(from, |spec: &mut Value| {
             spec["name"] = json!(name);
-            spec["emit"] = json!({ "scalar": "f32" });
+            spec["emit"] = json!({ "scalar": "f32", "c_api": c_library::MODULES.contains(name) });
             match *name {
                 "panda_exact" => spec["model"] = json!("exact"),
                 "puma560_adaptive" => {
@@ -95,15 +96,16 @@ pub static MADE: LazyLock<PathBuf> = LazyLock::new(|| {
                 _ => {}
             }
         });
-        let module = made.and_then(|generation| generation.module().map_err(|error| error.to_string()));
-        let text = module.unwrap_or_else(|error| panic!("{name}: {error}"));
+        let generation = made.unwrap_or_else(|error| panic!("{name}: {error}"));
+        let text = generation.module().unwrap_or_else(|error| panic!("{name}: {error}"));
         write(&folder.join(format!("{name}.rs")), &text);
+        c_library::write_files(name, &generation, &text);
     });
     folder
 });
 
 /// Writes a file, unless it is there as it should be: then nothing has to be built again.
-fn write(path: &Path, text: &str) {
+pub fn write(path: &Path, text: &str) {
     if std::fs::read_to_string(path).is_ok_and(|there| there == text) {
         return;
     }

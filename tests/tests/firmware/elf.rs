@@ -50,4 +50,15 @@ impl Image {
         let in_flash = |section: &&Section| section.flags & ALLOCATED != 0 && section.kind != NO_BITS;
         Self { symbols, flash: sections.iter().filter(in_flash).map(|section| section.size).sum() }
     }
+
+    /// Symbols of what panics, allocates, formats or computes in double precision.
+    pub fn foul(&self) -> Vec<&str> {
+        let foul = |name: &&str| {
+            let double =
+                ["__aeabi_d", "__adddf", "__subdf", "__muldf", "__divdf", "__extendsfdf", "__truncdfsf"];
+            ["panic", "unwind", "alloc", "3fmt"].iter().any(|part| name.contains(part))
+                || double.iter().any(|start| name.starts_with(start))
+        };
+        self.symbols.iter().map(String::as_str).filter(foul).collect()
+    }
 }

@@ -4,6 +4,7 @@
 //! `tests/firmware` is the program; `tests/firmware/setup` makes the toolchain. Without that these tests do nothing.
 
 mod built;
+mod c_library;
 mod counts;
 mod elf;
 mod examples;
