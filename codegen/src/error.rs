@@ -1,6 +1,7 @@
 //! What can go wrong, as values: every message names the file, the field, the value and the help.
 
 use std::fmt;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use crate::text::escaped;
@@ -8,7 +9,7 @@ use crate::text::escaped;
 /// The largest number of faults that an error shows: a file may hold thousands of the same kind.
 pub const MOST_TOLD: usize = 100;
 
-/// One fault of the input. It is shown in one line.
+/// One fault of the input. It is shown in one line, and a terminal shows the place under it.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
@@ -16,26 +17,56 @@ pub struct Diagnostic {
     pub file: PathBuf,
     /// The line of that file, from 1; `None` if the field is enough to find the place.
     pub line: Option<usize>,
+    /// The column of that line, in characters from 1; `None` where only the line is known.
+    pub column: Option<usize>,
+    /// That line and the part of it that is at fault; `None` where the place is not known.
+    pub excerpt: Option<Excerpt>,
     /// Path of the field inside the file, such as `arm.dh.links[1].mass`; empty if the fault is about the whole file.
     pub field: String,
     /// What is wrong, with the offending value.
     pub problem: String,
     /// What to write instead.
     pub help: String,
+    /// Which part of a field is at fault.
+    pub(crate) part: Part,
+}
+
+/// A line of a file and the part of it that is at fault.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Excerpt {
+    /// The line, without its end; a part of it where it is very long.
+    pub text: String,
+    /// The bytes of `text` that are at fault.
+    pub range: Range<usize>,
+}
+
+/// Which part of a field is at fault.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// What it holds.
+    #[default]
+    Value,
+    /// Its name.
+    Name,
 }
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let place = located(&self.file, self.line, &self.field);
+        let place = placed(&self.file, self.line, self.column, &self.field);
         write!(f, "{}: {}; {}", escaped(&place), escaped(&self.problem), escaped(&self.help))
     }
 }
 
 /// A place in words: `file: field`, or `file:line: field` where the line is known.
 pub(crate) fn located(file: &Path, line: Option<usize>, field: &str) -> String {
+    placed(file, line, None, field)
+}
+
+/// The same with the column, where that is known.
+fn placed(file: &Path, line: Option<usize>, column: Option<usize>, field: &str) -> String {
     let mut out = file.display().to_string();
-    if let Some(line) = line {
-        out.push_str(&format!(":{line}"));
+    for number in [line, column].into_iter().map_while(|number| number) {
+        out.push_str(&format!(":{number}"));
     }
     if !field.is_empty() {
         out.push_str(&format!(": {field}"));
@@ -96,10 +127,31 @@ impl Diagnostics {
         self.list.push(Diagnostic {
             file: file.to_path_buf(),
             line,
+            column: None,
+            excerpt: None,
             field: field.into(),
             problem: problem.into(),
             help: help.into(),
+            part: Part::Value,
         });
+    }
+
+    /// Adds a fault of the name of a field, in this collection's file.
+    pub(crate) fn push_name(
+        &mut self,
+        field: impl Into<String>,
+        problem: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        self.push(field, problem, help);
+        if let Some(fault) = self.list.last_mut() {
+            fault.part = Part::Name;
+        }
+    }
+
+    /// The faults so far, to say more about their places.
+    pub(crate) fn list_mut(&mut self) -> &mut [Diagnostic] {
+        &mut self.list
     }
 
     /// Adds faults found elsewhere.
@@ -208,4 +260,18 @@ fn list(faults: &[Diagnostic]) -> String {
         lines.push(format!("and {more} more"));
     }
     lines.join("\n")
+}
+
+/// A message behind its file `a.json`, line and column, which it must name unless it is about the whole file.
+#[cfg(test)]
+pub(crate) fn unplaced(message: &str) -> &str {
+    let rest = message.strip_prefix("a.json:").unwrap_or_else(|| panic!("no file in {message}"));
+    if let Some(whole) = rest.strip_prefix(' ') {
+        assert!(whole.starts_with("is "), "no place in {message}");
+        return whole;
+    }
+    let (place, rest) = rest.split_once(": ").unwrap_or_else(|| panic!("no place in {message}"));
+    let numbers: Vec<usize> = place.split(':').map(|number| number.parse().expect("a number")).collect();
+    assert!(numbers.len() == 2 && numbers.iter().all(|number| *number > 0), "{message}");
+    rest
 }

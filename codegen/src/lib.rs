@@ -23,6 +23,8 @@
 mod arm;
 mod bounds;
 mod cache;
+#[cfg(feature = "cli")]
+mod changes;
 mod check;
 mod choose;
 #[cfg(feature = "cli")]
@@ -35,6 +37,8 @@ mod emit;
 mod error;
 mod graph;
 mod guarantee;
+#[cfg(feature = "cli")]
+mod init;
 mod lagrangian;
 pub mod load;
 mod model;
@@ -52,6 +56,8 @@ mod report;
 mod reproduce;
 #[cfg(any(feature = "simulate", test))]
 mod simulate;
+#[cfg(feature = "cli")]
+mod sizes;
 pub mod spec;
 mod text;
 mod torque;
@@ -79,7 +85,7 @@ pub mod internals {
         output pipeline progress reduction text torque trig
     }
     #[cfg(feature = "cli")]
-    open! { cli report reproduce }
+    open! { changes cli report reproduce sizes }
     #[cfg(any(feature = "simulate", test))]
     open! { simulate }
 }

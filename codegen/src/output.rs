@@ -4,6 +4,8 @@
 //! as it was and no reader ever sees half a file. Temporary files have names of their own and are locked while the process
 //! runs. If a process ends early, the next one that writes the same file removes what it has left.
 
+#[cfg(feature = "cli")]
+mod growing;
 mod leftover;
 mod partial;
 
@@ -12,6 +14,8 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use crate::error::{Diagnostics, Error};
+#[cfg(feature = "cli")]
+pub use growing::Growing;
 use partial::Partial;
 
 /// A file to be written: its path and its text.

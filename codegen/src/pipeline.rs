@@ -17,6 +17,8 @@ mod step_rounding;
 mod threads;
 mod verdict;
 
+#[cfg(feature = "cli")]
+pub(crate) use expanded::candidates;
 pub use generation::Generation;
 pub(crate) use limits::Limits;
 pub(crate) use proved::keep;
@@ -44,6 +46,8 @@ struct Means<'a> {
     progress: &'a dyn Progress,
     /// What earlier runs have proved; `None` to prove all anew.
     cache: Option<&'a Cache>,
+    /// Whether the errors of the sampled loop are followed, which takes seconds.
+    judges: bool,
 }
 
 /// Which model is made.
@@ -61,8 +65,14 @@ enum Wanted {
 /// [`Error::Input`] with all faults of the specification and the files that it names.
 fn run(loaded: Loaded, extent: Extent, means: Means) -> Result<Generation, Error> {
     threads::check()?;
-    let checked = checked(loaded.clone(), extent).map_err(|error| expanded::with_count(error, &loaded))?;
-    Ok(Generation::concluded(chosen(checked, means)?, means))
+    let means = Means { judges: extent != Extent::Unjudged, ..means };
+    let made = || {
+        let checked =
+            checked(loaded.clone(), extent).map_err(|error| expanded::with_count(error, &loaded))?;
+        chosen(checked, means)
+    };
+    let designed = made().map_err(|error| error.pointing_into_files(&loaded))?;
+    Ok(Generation::concluded(designed, means))
 }
 
 /// The controller about the model that the specification asks for, or about the exact one where that leaves the choice

@@ -34,17 +34,23 @@ pub use uncertainty::{
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Spec {
-    /// Name of the generated module and file: lower-case letters, digits and underscores.
+    /// Where the schema of this file is, for editors.
+    #[serde(rename = "$schema", default, skip_serializing)]
+    pub schema: Option<String>,
+    /// Name of the generated module and file: lower-case letters, digits and underscores. Default: from the name of the
+    /// specification file.
+    #[serde(default)]
     pub name: String,
     /// The arm.
     pub arm: ArmSpec,
     /// The desired motion; may be absent where the measure is `workspace`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionSpec>,
-    /// Where the reduction is judged. Default: a tube of 0.05 rad (or m) around the motion.
+    /// Where the reduction is judged. Default: a tube of 0.05 rad (or m) around the motion; the workspace where there is neither
+    /// motion nor control.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measure: Option<MeasureSpec>,
-    /// Form of the model that is generated. Default: `auto`.
+    /// Form of the model that is generated. Default: `auto`; `exact` where there is neither motion, measure nor control.
     #[serde(default)]
     pub model: ModelSpec,
     /// How the kept parameters are fitted.

@@ -1,4 +1,4 @@
-"""Writes an arm as a compiled MuJoCo model. Run by compare.py in its environment.
+"""Writes an arm as a compiled MuJoCo model. Run by compare.py in its environment, imported by mujoco_loop.py.
 
     mujoco_model.py JOINTS.json FILE.mjb
 
@@ -41,8 +41,8 @@ def chain(arm):
     )
 
 
-def main():
-    arm = Arm(Path(sys.argv[1]))
+def compiled(arm):
+    """The compiled model. Nothing in it limits or touches, and the joints have no friction."""
     model = mujoco.MjModel.from_xml_string(chain(arm))
     for body, joint in enumerate(arm.joints, start=1):
         moments, axes = np.linalg.eigh(np.array(joint["I_com"]))
@@ -56,7 +56,8 @@ def main():
     masses = [joint["mass"] for joint in arm.joints]
     for body in range(arm.n + 1):
         model.body_subtreemass[body] = sum(masses[max(body - 1, 0) :])
-    mujoco.mj_saveModel(model, sys.argv[2], None)
+    return model
 
 
-main()
+if __name__ == "__main__":
+    mujoco.mj_saveModel(compiled(Arm(Path(sys.argv[1]))), sys.argv[2], None)

@@ -22,6 +22,16 @@ use gramforge::internals::motion::Motion;
 use gramforge::load::{Loaded, parse};
 use serde_json::Value;
 
+/// A fault line without the line and column that stand between the name of the file and the field.
+pub fn unplaced(line: &str) -> String {
+    let end = |word: &str| line.find(&format!("{word}:")).map(|at| at + word.len());
+    let Some(end) = [".json", ".jsonc", ".urdf", ".csv"].into_iter().filter_map(end).min() else {
+        return line.to_string();
+    };
+    let place = line[end..].trim_start_matches(|c: char| c == ':' || c.is_ascii_digit());
+    if place.starts_with(' ') { format!("{}:{place}", &line[..end]) } else { line.to_string() }
+}
+
 /// The specification file of `name`, from `data/` or else from the committed ones.
 pub fn spec(name: &str) -> PathBuf {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));

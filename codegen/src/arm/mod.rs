@@ -33,6 +33,8 @@ pub use linkage::{Coupling, Linkage};
 pub(crate) use round::{NOISE, distance};
 pub use transform::Transform;
 pub use uncertainty::{MOST_PARAMETERS, Parameter, Uncertainty};
+#[cfg(feature = "urdf")]
+pub use urdf::{Survey, Tip, survey};
 
 use crate::error::Diagnostics;
 use crate::load::Loaded;

@@ -3,13 +3,15 @@
 use super::shape::entries;
 use crate::arm::{Arm, Limits};
 use crate::error::Diagnostics;
-use crate::spec::{MeasureSpec, Spec};
+use crate::spec::{MeasureSpec, ModelSpec, Spec};
 
 /// Checks `spec.measure`; absent it is a tube, which needs a motion.
 pub(super) fn check(spec: &Spec, arm: Option<&Arm>, joints: Option<usize>, faults: &mut Diagnostics) {
     match &spec.measure {
         Some(MeasureSpec::Workspace) => {
-            if let Some(arm) = arm {
+            // An exact model leaves nothing out, so that its dynamics need no limits.
+            let exact = spec.model == ModelSpec::Exact && spec.control.is_none();
+            if let Some(arm) = arm.filter(|_| !exact) {
                 limits(spec, arm, faults);
             }
             return;

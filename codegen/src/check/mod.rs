@@ -31,6 +31,8 @@ pub use tuning::Tuning;
 pub enum Extent {
     /// All of it.
     Whole,
+    /// All of it, but nothing is proved of the sampled loop: that takes seconds.
+    Unjudged,
     /// All but the controller.
     Model,
 }
@@ -49,8 +51,8 @@ pub fn prepare(path: &Path) -> Result<Checked, Error> {
 /// # Errors
 /// [`Error::Input`] where the file cannot be read, else with every fault.
 pub fn read(path: &Path) -> Result<Loaded, Error> {
-    let Draft { loaded, mut faults, lost } = draft(path)?;
-    let Some(loaded) = loaded else { return Err(faults.into_error()) };
+    let Draft { loaded, mut faults, lost, text } = draft(path)?;
+    let Some(loaded) = loaded else { return Err(faults.into_error().pointing_into(path, &text)) };
     if faults.is_empty() {
         return Ok(loaded);
     }
@@ -64,7 +66,7 @@ pub fn read(path: &Path) -> Result<Loaded, Error> {
         !(gone(section) || gone("model") && together.contains(&fault.field.as_str()))
     };
     faults.extend(values.list().iter().filter(known).cloned());
-    Err(faults.into_error())
+    Err(faults.into_error().pointing_into_files(&loaded))
 }
 
 /// Checks a specification that is read already.
@@ -74,11 +76,11 @@ pub fn read(path: &Path) -> Result<Loaded, Error> {
 pub fn checked(loaded: Loaded, extent: Extent) -> Result<Checked, Error> {
     let mut faults = Diagnostics::of(&loaded.path);
     let (built, motion) = examine(&loaded, extent, &mut faults);
-    faults.finish(())?;
+    faults.finish(()).map_err(|error| error.pointing_into_files(&loaded))?;
     let defect = |what: &str| Error::Internal(format!("{what} was lost in its check"));
     let built = built.ok_or_else(|| defect("the arm"))?;
     let spec = &loaded.spec;
-    let control = spec.control.as_ref().filter(|_| extent == Extent::Whole);
+    let control = spec.control.as_ref().filter(|_| extent != Extent::Model);
     let along = motion.is_some();
     let dense = |control| Control::new(control, built.arm.dof(), along).ok_or_else(|| defect("`control`"));
     let control = control.map(dense).transpose()?;
@@ -94,7 +96,7 @@ fn examine(loaded: &Loaded, extent: Extent, faults: &mut Diagnostics) -> (Option
     let built = Arm::from_spec(loaded, faults);
     let arm = built.as_ref().map(|b| &b.arm);
     let motion = check(loaded, arm, faults);
-    if let Some(control) = loaded.spec.control.as_ref().filter(|_| extent == Extent::Whole) {
+    if let Some(control) = loaded.spec.control.as_ref().filter(|_| extent != Extent::Model) {
         let joints = joints(&loaded.spec, arm);
         control::check(control, joints, faults);
         gain_request::check(control, &loaded.spec, joints, faults);

@@ -16,6 +16,9 @@ use crate::torque::matrices;
 
 /// Evaluates the model at states from a file.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Example: gramforge evaluate ur5.jsonc --states states.json --model reduced\nwith states.json: [{ \"q\": [0, 0, 0, 0, 0, 0], \"qd\": [0, 0, 0, 0, 0, 0] }]"
+)]
 pub(super) struct Evaluate {
     /// The specification file.
     spec: PathBuf,
@@ -30,7 +33,7 @@ pub(super) struct Evaluate {
     friction: bool,
     /// Print JSON.
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -15,6 +15,9 @@ use crate::graph::Operations;
 
 /// Writes DIR/NAME.rs for each specification, with DIR/NAME.h and DIR/NAME_c where it asks for a C interface, or with --check compares without writing.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  gramforge generate ur5.jsonc --out src\n  gramforge generate specs/*.json --out src --check"
+)]
 pub(super) struct Generate {
     /// The specification files.
     #[arg(required = true)]
@@ -27,7 +30,7 @@ pub(super) struct Generate {
     check: bool,
     /// Print JSON.
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
 }
 
 #[derive(Serialize)]

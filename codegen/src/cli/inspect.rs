@@ -22,12 +22,15 @@ use crate::spec::MatrixSpec;
 
 /// Shows the expansion, the chosen functions, bounds, gains and operation counts of a specification.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  gramforge inspect ur5.jsonc\n  gramforge inspect ur5.jsonc --limits --json"
+)]
 pub(super) struct Inspect {
     /// The specification file.
     spec: PathBuf,
     /// Print JSON.
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
     /// Seek the longest period and the largest initial error for which the guarantee of the sampled loop holds.
     #[arg(long)]
     limits: bool,

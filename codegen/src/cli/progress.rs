@@ -1,12 +1,13 @@
 //! A bar on standard error while something takes its time.
 
-use std::io::{IsTerminal, stderr};
+use std::io::{IsTerminal, Write, stderr};
 use std::path::Path;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle};
 use std::time::Duration;
 
+use super::settings::quiet;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::bounds::Effort;
@@ -14,6 +15,7 @@ use crate::check::read;
 use crate::error::Error;
 use crate::pipeline::Generation;
 use crate::progress::Progress;
+use crate::text::escaped;
 
 /// What is over sooner shows no bar.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -65,7 +67,15 @@ struct Shown {
 impl Bars {
     /// Waits for stages.
     pub(super) fn new() -> Self {
-        Self { shown: stderr().is_terminal().then(Shown::new) }
+        Self { shown: (stderr().is_terminal() && !quiet()).then(Shown::new) }
+    }
+
+    /// Shows a line above the bar, on a terminal alone.
+    pub(super) fn say(&self, line: &str) {
+        if let Some(shown) = &self.shown {
+            // Where standard error takes nothing, there is nobody to tell.
+            shown.bar.suspend(|| writeln!(stderr().lock(), "{}", escaped(line))).unwrap_or_default();
+        }
     }
 }
 

@@ -14,13 +14,14 @@ use crate::reproduce::{claims, run};
 
 /// Runs the report's example under all its laws, draws its figures 2 to 6 and judges its claims.
 #[derive(Debug, Args)]
+#[command(after_help = "Example: gramforge reproduce --out report")]
 pub(super) struct Reproduce {
     /// Folder for the figures and the table of claims; made where it is missing.
     #[arg(long, default_value = "target/gramforge/report")]
     out: PathBuf,
     /// Print JSON.
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
 }
 
 #[derive(Serialize)]

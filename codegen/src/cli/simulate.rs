@@ -21,6 +21,7 @@ use crate::spec::LawSpec;
 
 /// Simulates the exact arm under equation (16) with the exact model, and under the specification's law.
 #[derive(Debug, Args)]
+#[command(after_help = "Example: gramforge simulate ur5.jsonc --runs 100 --plot ur5.svg")]
 pub(super) struct Simulate {
     /// The specification file; it needs `motion` and `control`.
     spec: PathBuf,
@@ -34,7 +35,7 @@ pub(super) struct Simulate {
     runs: Option<u32>,
     /// Print JSON.
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
 }
 
 #[derive(Serialize)]
@@ -52,14 +53,18 @@ impl Simulate {
     pub(super) fn run(&self) -> Result<String, Error> {
         let generation = generated(&self.spec)?;
         show_warnings(generation.warnings());
-        let scenario = Scenario::of(&generation)?;
+        self.simulated(&generation).map_err(|error| error.pointing_into_files(generation.loaded()))
+    }
+
+    fn simulated(&self, generation: &Generation) -> Result<String, Error> {
+        let scenario = Scenario::of(generation)?;
         let (comparison, chatter) = watched(|progress| {
             let _stage = Stage::new(progress, "simulation", 1);
             let comparison = simulate(&scenario)?;
-            let chatter = chatter(&generation, &comparison)?;
+            let chatter = chatter(generation, &comparison)?;
             Ok::<_, Error>((comparison, chatter))
         })?;
-        let found = self.runs.map(|runs| sought(&generation, &scenario, runs as usize)).transpose()?;
+        let found = self.runs.map(|runs| sought(generation, &scenario, runs as usize)).transpose()?;
         let joints = &generation.arm().joints;
         let sampled = generation.statement().and_then(|statement| statement.promised());
         if let Some(path) = &self.plot {

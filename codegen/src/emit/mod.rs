@@ -4,6 +4,7 @@ mod c_header;
 mod constants;
 mod controller;
 mod docs;
+mod facts;
 mod fused;
 mod guarantee;
 mod literal;
@@ -18,11 +19,13 @@ mod trig;
 mod type_name;
 
 pub use c_header::{CFile, c_interface};
+pub(crate) use docs::functions;
+pub use facts::Facts;
 pub use type_name::type_name;
 
+#[cfg(feature = "cli")]
 pub(crate) use docs::{
-    domain as domain_in_words, functions, met as met_in_words, rates as rates_in_words,
-    torque as torque_in_words,
+    domain as domain_in_words, met as met_in_words, rates as rates_in_words, torque as torque_in_words,
 };
 #[cfg(feature = "cli")]
 pub(crate) use reference_limits::{ABSOLUTE_VALUES, COMPARISONS};
@@ -90,6 +93,8 @@ pub struct Module<'a> {
     pub rounding: Option<&'a StepRounding>,
     /// Whether the step reports a desired motion beyond its limits.
     pub check_reference: bool,
+    /// What it says of itself for programs.
+    pub facts: &'a Facts,
     /// Number type of the code.
     pub scalar: ScalarSpec,
 }
@@ -155,7 +160,7 @@ pub fn emit(module: &Module) -> Result<String, Error> {
         #controller
     };
     let text = formatted(tokens)?;
-    Ok(docs::header(module, text.len()) + &text)
+    Ok(docs::header(module, text.len())? + &text)
 }
 
 /// The text of a module that does not compile and says `problem`, for a specification that gives none.

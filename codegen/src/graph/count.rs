@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Graph, Node};
 use crate::lagrangian::MAX_JOINTS;
@@ -16,7 +16,7 @@ pub const CLAMP: usize = 2;
 pub const DIVISION: usize = 5;
 
 /// Operations of one evaluation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Operations {
     /// Multiplications.
     pub mul: usize,

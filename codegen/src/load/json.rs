@@ -11,20 +11,21 @@ use crate::error::Diagnostics;
 /// Longest key, characters: a name has 200 at most.
 const LONGEST_KEY: usize = 1000;
 
-/// The value that `text` stands for; `None` after a syntax fault. Repeated keys are faults too, the last one stands; what
-/// stands under a key that is too long is left out.
+/// The value that `text`, without comments, stands for; `None` after a syntax fault. Repeated keys are faults too, the last
+/// one stands; what stands under a key that is too long is left out.
 pub(super) fn read(text: &str, faults: &mut Diagnostics) -> Option<Value> {
-    let text = text.trim_start_matches('\u{feff}');
     let mut wrong = Vec::new();
     let mut reader = serde_json::Deserializer::from_str(text);
     let node = Node { path: String::new(), wrong: &mut wrong };
     let result = node.deserialize(&mut reader).and_then(|value| reader.end().map(|()| value));
     for (field, key) in wrong {
         match key {
-            Key::Repeated => faults.push(field, "occurs twice in the same object", "keep one of the two"),
+            Key::Repeated => {
+                faults.push_name(field, "occurs twice in the same object", "keep one of the two")
+            }
             Key::Long(length) => {
                 let help = format!("write at most {LONGEST_KEY}, or remove it");
-                faults.push(field, format!("is a key of {length} characters"), help);
+                faults.push_name(field, format!("is a key of {length} characters"), help);
             }
         }
     }
@@ -32,7 +33,11 @@ pub(super) fn read(text: &str, faults: &mut Diagnostics) -> Option<Value> {
         Ok(value) => Some(value),
         Err(error) => {
             let (problem, help) = syntax(&error);
-            faults.push("", problem, help);
+            let file = faults.file().to_path_buf();
+            faults.push_at(&file, Some(error.line()), "", problem, help);
+            if let Some(fault) = faults.list_mut().last_mut() {
+                fault.column = Some(column(text, &error));
+            }
             None
         }
     }
@@ -54,6 +59,13 @@ pub(super) fn narrow(value: &mut Value) {
     }
 }
 
+/// The column of `error` in characters from 1: serde_json counts bytes.
+fn column(text: &str, error: &serde_json::Error) -> usize {
+    let line = text.split('\n').nth(error.line().saturating_sub(1)).unwrap_or_default();
+    let before = line.char_indices().take_while(|(at, _)| at + 1 < error.column());
+    before.count() + 1
+}
+
 /// Problem and help for a syntax error.
 fn syntax(error: &serde_json::Error) -> (String, &'static str) {
     let place = format!(" at line {} column {}", error.line(), error.column());
@@ -64,9 +76,9 @@ fn syntax(error: &serde_json::Error) -> (String, &'static str) {
     } else if error.is_eof() {
         "complete the file: a quote, bracket or brace is not closed"
     } else {
-        "correct the JSON there: double quotes around names, commas between entries, no comments"
+        "correct the JSON there: double quotes around names, commas between entries and none after the last"
     };
-    (format!("line {}, column {}: {what}", error.line(), error.column()), help)
+    (format!("is not JSON that can be read ({what})"), help)
 }
 
 /// What is wrong with a key.

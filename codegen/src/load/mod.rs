@@ -1,12 +1,16 @@
-//! From a file to a [`Spec`] of the right shape: JSON syntax, then structure against the schema.
+//! From a file to a [`Spec`] of the right shape: JSON with comments, then structure against the schema.
 //!
 //! The stages `arm` and `check` check later what the values mean.
 
+mod comments;
+mod defaults;
 mod hash;
 mod json;
 mod mismatch;
 mod named;
+mod place;
 mod plain;
+mod pointed;
 mod reader;
 mod repair;
 mod schema;
@@ -15,18 +19,20 @@ mod wording;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use serde_json::Value;
 
 use crate::error::{Diagnostics, Error};
 use crate::spec::Spec;
 
+pub(crate) use defaults::module_name;
 pub(crate) use hash::canonical;
 pub use hash::spec_hash;
 pub use named::Named;
 pub use plain::plain;
 pub(crate) use reader::text as read_text;
-pub use schema::schema;
+pub use schema::{SCHEMA, schema};
 
 /// A specification of the right shape and the files that it names.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +46,8 @@ pub struct Loaded {
     pub files: Vec<PathBuf>,
     /// The named files with their bytes.
     pub named: Vec<Named>,
+    /// The text that the specification was read from.
+    pub text: Arc<str>,
 }
 
 impl Loaded {
@@ -58,6 +66,8 @@ pub struct Draft {
     pub faults: Diagnostics,
     /// The sections that are stand-ins or left out, such as `control`.
     pub lost: BTreeSet<String>,
+    /// The text that was read.
+    pub text: Arc<str>,
 }
 
 /// Reads the specification file at `path`.
@@ -94,18 +104,21 @@ fn text(path: &Path) -> Result<String, Error> {
 /// [`Error::Input`] with line and column where the text is not JSON, else with every field that is missing,
 /// unknown, repeated, of the wrong type or a text with hidden characters (see [`plain()`]).
 pub fn parse(text: &str, path: &Path) -> Result<Loaded, Error> {
-    let Draft { loaded, faults, .. } = drafted(text, path)?;
-    match loaded {
-        Some(loaded) => faults.finish(loaded),
-        None => Err(faults.into_error()),
-    }
+    let Draft { loaded, faults, text, .. } = drafted(text, path)?;
+    let error = match loaded {
+        Some(loaded) if faults.is_empty() => return Ok(loaded),
+        _ => faults.into_error(),
+    };
+    Err(error.pointing_into(path, &text))
 }
 
 /// The same, as far as it goes.
 fn drafted(text: &str, path: &Path) -> Result<Draft, Error> {
     let mut faults = Diagnostics::of(path);
-    let nothing = |faults| Draft { loaded: None, faults, lost: BTreeSet::new() };
-    let Some(mut value) = json::read(text, &mut faults) else { return Ok(nothing(faults)) };
+    let text: Arc<str> = Arc::from(text.trim_start_matches('\u{feff}'));
+    let nothing = |faults| Draft { loaded: None, faults, lost: BTreeSet::new(), text: text.clone() };
+    let Some(value) = comments::blanked(&text, &mut faults) else { return Ok(nothing(faults)) };
+    let Some(mut value) = json::read(&value, &mut faults) else { return Ok(nothing(faults)) };
     let before = faults.count();
     plain::check(&value, &mut faults);
     let hidden = faults.count() > before;
@@ -115,25 +128,27 @@ fn drafted(text: &str, path: &Path) -> Result<Draft, Error> {
         return Ok(nothing(faults));
     }
     if faults.is_empty() {
-        let loaded = Some(typed(value, path)?);
-        return Ok(Draft { loaded, faults, lost: BTreeSet::new() });
+        let loaded = Some(typed(value, path, &text)?);
+        return Ok(Draft { loaded, faults, lost: BTreeSet::new(), text });
     }
     let Some(lost) = repair::repair(&mut value)? else { return Ok(nothing(faults)) };
     // What cannot be read even so has faults enough.
-    Ok(Draft { loaded: typed(value, path).ok(), faults, lost })
+    Ok(Draft { loaded: typed(value, path, &text).ok(), faults, lost, text })
 }
 
 /// The specification that `value`, which has its shape, stands for.
-fn typed(mut value: Value, path: &Path) -> Result<Loaded, Error> {
+fn typed(mut value: Value, path: &Path, text: &Arc<str>) -> Result<Loaded, Error> {
     json::narrow(&mut value);
+    defaults::name(&mut value, path);
     let mut spec: Spec = serde_json::from_value(value).map_err(|error| {
         Error::input(path, "", format!("does not fit the schema ({error})"), "compare it with the schema")
     })?;
     spec.emit.leave_out_default();
+    defaults::measure(&mut spec);
     let named = named::read(&spec, path);
     let files =
         [path.to_path_buf()].into_iter().chain(named.iter().map(|named| named.path.clone())).collect();
-    Ok(Loaded { spec, path: path.to_path_buf(), files, named })
+    Ok(Loaded { spec, path: path.to_path_buf(), files, named, text: text.clone() })
 }
 
 #[cfg(test)]

@@ -44,6 +44,14 @@ impl Loaded {
     }
 }
 
+impl Named {
+    /// The file at `path` by itself, as a message names it.
+    pub(crate) fn alone(field: &'static str, path: &Path) -> Self {
+        let content = bytes(path).map(Arc::from).map_err(|error| error.to_string());
+        Self { field, name: path.display().to_string(), path: path.to_path_buf(), content }
+    }
+}
+
 /// Reads every file that `spec`, itself in the file `path`, names.
 pub(super) fn read(spec: &Spec, path: &Path) -> Vec<Named> {
     let folder = path.parent().unwrap_or(Path::new(""));

@@ -96,7 +96,7 @@ mod tests {
         }
         let mut found = BTreeSet::new();
         keywords(&made(), false, &mut found);
-        let notes = ["$schema", "$defs", "title", "description", "default", "format"];
+        let notes = ["$schema", "$defs", "title", "description", "default", "format", "writeOnly"];
         found.retain(|key| !notes.contains(&key.as_str()) && !KEYWORDS.contains(&key.as_str()));
         assert!(found.is_empty(), "{found:?}");
     }

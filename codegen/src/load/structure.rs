@@ -78,7 +78,7 @@ impl Explainer<'_> {
                 Some(near) => format!("did you mean `{near}`? The fields here are {}", quoted(&known)),
                 None => format!("remove it; the fields here are {}", quoted(&known)),
             };
-            self.faults.push(member(field, name), "is not a field", help);
+            self.faults.push_name(member(field, name), "is not a field", help);
         }
     }
 

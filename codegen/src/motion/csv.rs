@@ -45,7 +45,7 @@ pub(super) fn read(table: &Named, dof: usize, faults: &mut Diagnostics) -> Optio
         if times.len() == MOST_ROWS {
             let problem = format!("is row {} of numbers, and at most {MOST_ROWS} are read", MOST_ROWS + 1);
             let help = "keep every second row, or every tenth: a spline goes through the rows that are left";
-            faults.push_in(path, format!("line {line}"), problem, help);
+            faults.push_at(path, Some(line as usize), "", problem, help);
             return None;
         }
         match row(&record, dof, times.last().copied()) {
@@ -56,7 +56,7 @@ pub(super) fn read(table: &Named, dof: usize, faults: &mut Diagnostics) -> Optio
             Err((problem, help)) => {
                 wrong += 1;
                 if wrong <= MOST_FAULTS {
-                    faults.push_in(path, format!("line {line}"), problem, help);
+                    faults.push_at(path, Some(line as usize), "", problem, help);
                 }
             }
         }

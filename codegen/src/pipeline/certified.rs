@@ -58,6 +58,8 @@ pub(super) struct Proved {
     pub regression: Option<Regression>,
     /// The torque as a function of them.
     pub regressor: Option<Regressor>,
+    /// How much of the model stands on each kept function, in their order.
+    pub shares: Vec<f64>,
     /// What is odd about the specification without being wrong.
     pub warnings: Vec<String>,
     /// A certificate for each coefficient.
@@ -94,7 +96,7 @@ impl Certified {
             return Err(overflow(checked));
         }
         modelled.warnings.extend(warnings);
-        let Modelled { sampled, model, exact, regression, regressor, warnings } = modelled;
+        let Modelled { sampled, model, exact, regression, regressor, shares, warnings } = modelled;
         let Sampled { expanded, setting, .. } = sampled;
         let Expanded { checked, lagrangian, .. } = expanded;
         let proved = Proved {
@@ -103,6 +105,7 @@ impl Certified {
             exact,
             regression,
             regressor,
+            shares,
             warnings,
             certificates,
             bounds,

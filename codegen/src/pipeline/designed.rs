@@ -4,7 +4,7 @@ use super::Means;
 use super::certified::Certified;
 use super::judged::{has_long_period, required, stable, statement_of};
 use super::replaced::{Replaced, Saving};
-use super::requested::{follows, requested};
+use super::requested::{follows, judges, requested};
 use super::step_rounding::rounded_design;
 use crate::bounds::Effort;
 use crate::check::{Checked, Control, GainSource, Tuning};
@@ -43,13 +43,14 @@ impl Designed {
             return Ok(Self::without_controller(certified));
         };
         let judged = match &control.gains {
-            GainSource::Requested(request) if follows(&certified, control) => {
+            GainSource::Requested(request) if means.judges && follows(&certified, control) => {
                 requested(&certified, control, request, means)?
             }
             _ => Self::made(&certified, control, means)?,
         };
         let Judged { made: (design, step, rounding), mut statement } = judged;
-        if control.require_guarantee.is_some() || has_long_period(control, &design) {
+        let asked = control.require_guarantee.is_some() || has_long_period(control, &design);
+        if asked && judges(&certified, means) {
             let made = statement.unwrap_or_else(|| statement_of(&certified, &design, &rounding, means));
             stable(&certified, &design, &made)?;
             required(&certified, &design, &made)?;
@@ -95,7 +96,9 @@ impl Designed {
 
     /// Judges the controller, if there is one and that was not done.
     pub fn state(&mut self, means: Means) {
-        if let (None, Some(design), Some(rounding)) = (&self.statement, &self.design, &self.rounding) {
+        if let (None, Some(design), Some(rounding), true) =
+            (&self.statement, &self.design, &self.rounding, judges(&self.certified, means))
+        {
             self.statement = Some(statement_of(&self.certified, design, rounding, means));
         }
     }
@@ -129,7 +132,7 @@ impl Designed {
         let (Some(control), Some(design)) = (&checked.control, &self.design) else {
             return Err(Error::input(&checked.loaded.path, "control", "is missing", "add `control`"));
         };
-        let means = Means { effort: &Effort::default(), progress: &Silent, cache: None };
+        let means = Means { effort: &Effort::default(), progress: &Silent, cache: None, judges: true };
         rounded_design(&self.certified, &given(control, design), means, constant).map(|(design, ..)| design)
     }
 
@@ -184,6 +187,9 @@ fn better(certified: &Certified, first: Made, second: Made, means: Means) -> Jud
     let cost = |(_, step, _): &Made| step.operations().cost();
     let (cheap, dear) = if cost(&second) < cost(&first) { (second, first) } else { (first, second) };
     let judged = |made: Made| Judged::new(made).stated(certified, means);
+    if !judges(certified, means) {
+        return Judged::new(cheap);
+    }
     let cheap = judged(cheap);
     let strongest = if certified.checked.motion.is_some() { Kind::Sampled } else { Kind::Continuous };
     if cheap.statement.as_ref().is_some_and(|statement| statement.kind <= strongest) {

@@ -3,6 +3,8 @@
 use super::Means;
 use crate::arm::{Arm, Built, indefinite};
 use crate::check::Checked;
+#[cfg(feature = "cli")]
+use crate::check::{Extent, checked};
 use crate::domain::Domain;
 use crate::dynamics::mass_matrix;
 use crate::error::{Diagnostics, Error};
@@ -67,6 +69,18 @@ pub(super) fn with_count(error: Error, loaded: &Loaded) -> Error {
         check_count(&loaded.spec, &expand_family(&arm, &uncertainty), &mut faults);
     }
     faults.into_error()
+}
+
+/// The number of functions among which the reduction of `loaded` chooses, and of terms of the exact model.
+///
+/// # Errors
+/// [`Error::Input`] with all faults of the specification and the files that it names.
+#[cfg(feature = "cli")]
+pub(crate) fn candidates(loaded: &Loaded) -> Result<(usize, usize), Error> {
+    let checked = checked(loaded.clone(), Extent::Model)?;
+    let lagrangian = expand_family(&checked.built.arm, &checked.built.uncertainty);
+    let functions = Dictionary::of(loaded.spec.dictionary).functions(&lagrangian).len();
+    Ok((functions, lagrangian.terms()))
 }
 
 /// Faults where more functions are asked for than there are.

@@ -5,15 +5,16 @@ use std::path::Path;
 use super::Means;
 use super::certified::Proved;
 use super::designed::Designed;
+use super::judged::switching_gain;
 use crate::arm::{Arm, Uncertainty};
 use crate::bounds::{Bounds, Certificate, Effort, Met, Torque};
 use crate::cache::Cache;
 use crate::check::{Checked, Control, Extent, read};
 use crate::control::{Design, StepGraph, StepRounding};
 use crate::domain::Domain;
-use crate::emit::{CFile, Module, c_interface, emit};
+use crate::emit::{CFile, Facts, Module, c_interface, emit, functions};
 use crate::error::Error;
-use crate::graph::Graph;
+use crate::graph::{Graph, Operations};
 use crate::guarantee::Statement;
 use crate::lagrangian::Lagrangian;
 use crate::load::{Loaded, spec_hash};
@@ -64,7 +65,7 @@ impl Generation {
     /// # Errors
     /// As [`Generation::from_file`].
     pub fn with_progress(loaded: Loaded, effort: &Effort, progress: &dyn Progress) -> Result<Self, Error> {
-        super::run(loaded, Extent::Whole, Means { effort, progress, cache: None })
+        super::run(loaded, Extent::Whole, Means { effort, progress, cache: None, judges: true })
     }
 
     /// The same with stages that an earlier run of the same program has kept in `cache`.
@@ -74,7 +75,7 @@ impl Generation {
         progress: &dyn Progress,
         cache: Option<&Cache>,
     ) -> Result<Self, Error> {
-        super::run(loaded, Extent::Whole, Means { effort, progress, cache })
+        super::run(loaded, Extent::Whole, Means { effort, progress, cache, judges: true })
     }
 
     /// The model alone: as [`Generation::with_progress`], but without gains, guarantee and the check
@@ -83,7 +84,18 @@ impl Generation {
     /// # Errors
     /// As [`Generation::from_file`].
     pub fn model_only(loaded: Loaded, effort: &Effort, progress: &dyn Progress) -> Result<Self, Error> {
-        super::run(loaded, Extent::Model, Means { effort, progress, cache: None })
+        super::run(loaded, Extent::Model, Means { effort, progress, cache: None, judges: true })
+    }
+
+    /// All but what is promised of the sampled loop along a motion, which takes seconds: as [`Generation::with_progress`], but
+    /// [`Generation::statement`] is `None` there, and the module lacks `GUARANTEE` and `PERIOD_MAX`. Where the switching gain is
+    /// `auto`, the cheaper step is taken; a request for gains is answered by a level of V alone, and a guarantee that is
+    /// required is not looked at.
+    ///
+    /// # Errors
+    /// As [`Generation::from_file`].
+    pub fn unjudged(loaded: Loaded, effort: &Effort, progress: &dyn Progress) -> Result<Self, Error> {
+        super::run(loaded, Extent::Unjudged, Means { effort, progress, cache: None, judges: false })
     }
 
     /// The last stage: what the model's error costs in torque at the rates that the law meets.
@@ -135,8 +147,24 @@ impl Generation {
             step: self.step().filter(|_| self.spec().emit.law == LawCodeSpec::Inline),
             rounding: self.rounding(),
             check_reference: self.spec().emit.check_reference,
+            facts: &self.facts(),
             scalar: self.spec().emit.scalar,
         })
+    }
+
+    /// What the module says of itself for programs.
+    fn facts(&self) -> Facts {
+        let kept = functions(self.lagrangian(), self.reduced());
+        let [operations, exact] = self.compared_operations();
+        Facts {
+            form: self.form().name().to_string(),
+            psi: kept.into_iter().zip(self.shares().iter().copied()).collect(),
+            operations: operations.unwrap_or_default(),
+            exact_operations: exact,
+            torque_error: self.torque().map(|torque| torque.error.clone()),
+            switching_gain: self.switching_gain(),
+            guarantee: self.statement().map(|statement| statement.kind.name().to_string()),
+        }
     }
 
     /// The controller with these gains and a constant robust gain, or the law's own bracket.
@@ -161,6 +189,12 @@ impl Generation {
     /// The specification.
     pub fn spec(&self) -> &Spec {
         &self.checked().loaded.spec
+    }
+
+    /// The specification as it was read, with the files that it names.
+    #[cfg(feature = "cli")]
+    pub(crate) fn loaded(&self) -> &Loaded {
+        &self.checked().loaded
     }
 
     /// The file that the specification was read from.
@@ -278,9 +312,30 @@ impl Generation {
         self.designed.rounding.as_ref()
     }
 
+    /// The switching gain by joint, N·m or N: the constant one, or a bound on the law's own while the errors stay in their
+    /// envelope. `None` without a controller, for a law that does not switch or that learns, or where no level of V holds the
+    /// errors.
+    pub fn switching_gain(&self) -> Option<Vec<f64>> {
+        switching_gain(&self.designed.certified, self.design()?)
+    }
+
     /// The step of the same law about the exact model; `None` without a controller, or for a law that learns.
     pub fn exact_step(&self) -> Option<&StepGraph> {
         self.designed.exact_step.as_ref()
+    }
+
+    /// Operations as the verdict compares them: of the step, or of the passivity torque without a controller, and of the same with
+    /// the exact model, which is `None` for a law that learns.
+    pub fn compared_operations(&self) -> [Option<Operations>; 2] {
+        match self.design() {
+            Some(_) => [self.step(), self.exact_step()].map(|step| step.map(StepGraph::operations)),
+            None => [self.code(), self.exact_code()].map(|code| Some(code.operations())),
+        }
+    }
+
+    /// How much of the model stands on each kept function, in their order: see [`crate::reduction::shares`].
+    pub fn shares(&self) -> &[f64] {
+        &self.proved().shares
     }
 
     /// The parameters of a law that learns; `None` for the other laws.

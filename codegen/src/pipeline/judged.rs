@@ -5,7 +5,9 @@ use super::certified::Certified;
 use super::designed::with_problem;
 use crate::bounds::{Bounds, Effort, ModelError, Rates};
 use crate::check::{Control, InitialError};
-use crate::control::{Design, LoopErrors, SingleRounding, StepRounding, loop_rounding, room};
+use crate::control::{
+    Design, Envelope, LoopErrors, RobustGain, SingleRounding, StepRounding, loop_rounding, room,
+};
 use crate::error::Error;
 use crate::guarantee::{Kind, Sampled, SampledLoop, Statement, Wrong};
 use crate::lagrangian::Lagrangian;
@@ -175,7 +177,7 @@ impl<'a> Judge<'a> {
         });
         let gain = most_gain(certified, design, &errors.rates, &errors.s);
         let Some(control) = &checked.control else { return Wrong { torque: model, s: vec![0.0; n] } };
-        let means = Means { effort: &Effort::default(), progress: &Silent, cache: None };
+        let means = Means { effort: &Effort::default(), progress: &Silent, cache: None, judges: true };
         let [rounded, s] = with_problem(certified, control, means, single.as_ref(), |problem| {
             loop_rounding(problem, design, errors, &gain)
         });
@@ -188,6 +190,21 @@ impl<'a> Judge<'a> {
 fn own_model(lagrangian: &Lagrangian) -> Lagrangian {
     let ranges = vec![[0.0; 2]; lagrangian.ranges.len()];
     Lagrangian { ranges, ..lagrangian.clone() }
+}
+
+/// The switching gain by joint, N·m or N: the constant one, or a bound on the law's own while the errors stay in their
+/// envelope. `None` for a law that does not switch or that learns, or where no level of V holds the errors.
+pub(super) fn switching_gain(certified: &Certified, design: &Design) -> Option<Vec<f64>> {
+    if !design.law.has_choice() {
+        return None;
+    }
+    if let RobustGain::Constant(gain) = &design.robust_gain {
+        return Some(gain.clone());
+    }
+    let Envelope { position_error, velocity_error, .. } = &design.envelope;
+    let pulled = design.gains.p12.iter().map(|row| weighed(row, position_error));
+    let s: Vec<f64> = velocity_error.iter().zip(pulled).map(|(speed, pulled)| speed + pulled).collect();
+    Some(most_gain(certified, design, design.rates.as_ref()?, &s))
 }
 
 /// More than any switching gain of `design`, by joint, N·m or N.

@@ -29,6 +29,8 @@ pub(super) struct Modelled {
     pub regression: Option<Regression>,
     /// The torque as a function of them.
     pub regressor: Option<Regressor>,
+    /// How much of the model stands on each kept function.
+    pub shares: Vec<f64>,
     /// What is odd about the specification without being wrong.
     pub warnings: Vec<String>,
 }
@@ -82,7 +84,8 @@ impl Modelled {
                 *code = code.fused();
             }
         }
-        Ok(Self { model, exact, regression, regressor, warnings, sampled })
+        let shares = reduction::shares(lagrangian, &model.reduced, &sampled.measure);
+        Ok(Self { model, exact, regression, regressor, shares, warnings, sampled })
     }
 }
 

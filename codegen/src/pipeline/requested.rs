@@ -20,6 +20,12 @@ pub(super) fn follows(certified: &Certified, control: &Control) -> bool {
     control.law != LawSpec::Adaptive && checked.motion.is_some()
 }
 
+/// Whether what is promised is sought: without errors to follow that takes no time.
+pub(super) fn judges(certified: &Certified, means: Means) -> bool {
+    let control = certified.checked.control.as_ref();
+    means.judges || !control.is_some_and(|control| follows(certified, control))
+}
+
 /// The controller with gains that `request` asks for and for which the sampled loop is guaranteed: those of a level of V, or else
 /// others that are fast enough.
 ///
@@ -108,6 +114,6 @@ fn inside(request: &GainRequest, sampled: &Sampled) -> bool {
 
 /// Gains that may meet `request`.
 fn proposed(certified: &Certified, control: &Control, request: &GainRequest) -> Result<Vec<Tuning>, Error> {
-    let means = Means { effort: &Effort::default(), progress: &Silent, cache: None };
+    let means = Means { effort: &Effort::default(), progress: &Silent, cache: None, judges: true };
     with_problem(certified, control, means, None, |problem| proposals(problem, request))
 }

@@ -1,21 +1,32 @@
 //! What a person looks at: tables for the terminal and plots, as text; nothing here writes a file.
 
+mod changes;
 mod claims;
 mod figure;
 mod funnel;
 mod grid;
+mod html;
 mod monte_carlo;
+mod pareto;
 mod plot;
 mod reproduction;
 mod series;
+mod sizes;
+mod sizes_csv;
 mod table;
 
+pub use changes::changes_text;
 pub(crate) use claims::largest_difference;
 pub use claims::{Claim, claims};
 pub use funnel::funnel_plot;
+pub(crate) use html::counted;
+pub use html::{ReportEffort, Study, html_report};
 pub use monte_carlo::{CertifiedErrors, monte_carlo_table};
+pub use pareto::pareto_plot;
 pub use plot::plot;
 pub use reproduction::{Figures, figures};
+pub use sizes::{size_line, sizes_table};
+pub use sizes_csv::sizes_csv;
 pub use table::{bounds_table, chatter_table, claims_table, metrics_table, operations_table};
 
 use crate::arm::JointKind;

@@ -5,12 +5,17 @@ const MOST_POINTS: usize = 1200;
 
 /// The points (x, y) that can be drawn; of a long curve the extremes of each stretch, so that no peak is lost.
 pub(super) fn curve(x: &[f64], y: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
+    curve_of(x, y, MOST_POINTS)
+}
+
+/// The same with `most` points.
+pub(super) fn curve_of(x: &[f64], y: impl Iterator<Item = f64>, most: usize) -> Vec<(f64, f64)> {
     let points: Vec<(f64, f64)> = x.iter().copied().zip(y).filter(|(_, y)| y.is_finite()).collect();
-    if points.len() <= MOST_POINTS {
+    if points.len() <= most {
         return points;
     }
-    let stretch = points.len().div_ceil(MOST_POINTS / 2);
-    let mut out = Vec::with_capacity(MOST_POINTS);
+    let stretch = points.len().div_ceil(most / 2);
+    let mut out = Vec::with_capacity(most);
     for stretch in points.chunks(stretch) {
         let by_height = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
         if let (Some(&low), Some(&high)) =

@@ -13,6 +13,7 @@ mod monte_carlo;
 mod reference;
 mod run;
 mod step_law;
+mod torque_error;
 
 use std::path::Path;
 
@@ -30,6 +31,7 @@ pub use monte_carlo::{
 };
 pub use run::{Run, Trace};
 pub use step_law::MOST_LEARNT;
+pub use torque_error::largest_torque_error;
 
 use self::array::{matrix, vector};
 use self::controlled::Controlled;

@@ -5,6 +5,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+pub use gramforge_tests::unplaced;
+
 /// What a finished process left.
 #[derive(Debug)]
 pub struct Outcome {
@@ -23,11 +25,26 @@ impl Outcome {
         serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error} in {self:#?}"))
     }
 
-    /// Asserts the exit code, and nothing on standard output where it is not 0.
+    /// Asserts the exit code, and where it is not 0 nothing on standard output but the faults that `--json` asks for.
     pub fn expect(self, code: i32) -> Self {
         assert_eq!(self.code, Some(code), "{self:#?}");
-        assert!(code == 0 || self.stdout.is_empty(), "{self:#?}");
+        assert!(code == 0 || self.stdout.is_empty() || !self.errors().is_empty(), "{self:#?}");
         self
+    }
+
+    /// The faults on standard output, as `--json` prints them.
+    pub fn errors(&self) -> Vec<serde_json::Value> {
+        let value: Option<serde_json::Value> = serde_json::from_str(&self.stdout).ok();
+        value.and_then(|value| value["errors"].as_array().cloned()).unwrap_or_default()
+    }
+
+    /// The faults on standard error: one line each, without the places that are shown under them.
+    pub fn faults(&self) -> Vec<String> {
+        let shown = |line: &&str| {
+            let behind = line.trim_start().trim_start_matches(|c: char| c.is_ascii_digit()).trim_start();
+            !behind.starts_with('|')
+        };
+        self.stderr.lines().filter(shown).map(str::to_string).collect()
     }
 }
 

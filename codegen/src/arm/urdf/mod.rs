@@ -9,9 +9,12 @@ mod encoding;
 mod joint;
 mod mimic;
 mod robot;
+mod survey;
 mod transmission;
 mod tree;
 mod xml;
+
+pub use survey::{Survey, Tip, survey};
 
 use std::collections::BTreeMap;
 use std::path::Path;

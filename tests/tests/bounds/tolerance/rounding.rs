@@ -27,7 +27,7 @@ fn nearly_square(round_angles: f64, torque: f64) -> Result<Generation, String> {
 fn a_tolerance_that_rounded_rotations_exceed_is_refused() {
     let message = nearly_square(0.01, 0.001).expect_err("12.99 % for 0.1 %");
     assert_eq!(
-        message,
+        gramforge_tests::unplaced(&message),
         "arm.json: arm.round_angles: is 0.01, and rounding rotations by up to this costs 12.99 % of the peak torque of joint1, \
          but `model` allows 0.1 %; write a smaller value, such as 1e-9, or a `model.tolerance.torque` above 0.1299"
     );

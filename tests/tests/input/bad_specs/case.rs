@@ -9,6 +9,7 @@ pub struct Case {
     file: &'static str,
     field: &'static str,
     words: &'static [&'static str],
+    line: Option<usize>,
 }
 
 /// A mistake in the specification: the message names `field` (empty: the file alone) and holds `words`, in order.
@@ -18,13 +19,19 @@ pub const fn case(
     field: &'static str,
     words: &'static [&'static str],
 ) -> Case {
-    Case { name, spoil, file: "spec.json", field, words }
+    Case { name, spoil, file: "spec.json", field, words, line: None }
 }
 
 impl Case {
     /// The mistake is in `file`.
     pub const fn inside(mut self, file: &'static str) -> Self {
         self.file = file;
+        self
+    }
+
+    /// The mistake is in this line.
+    pub const fn line(mut self, line: usize) -> Self {
+        self.line = Some(line);
         self
     }
 }
@@ -39,8 +46,9 @@ pub fn judge(cases: &[Case]) {
         let spec = input.write(folder.path(), "spec.json");
         let lines = faults(folder.path(), &[spec]);
         let field = if case.field.is_empty() { String::new() } else { format!("{}: ", case.field) };
-        let start = format!("{}: {field}", folder.path().join(case.file).display());
-        let lines: Vec<String> = lines.iter().map(|line| without_line(line, case)).collect();
+        let file = folder.path().join(case.file).display().to_string();
+        let lines: Vec<String> = lines.iter().map(|line| without_place(line, &file, case)).collect();
+        let start = format!("{file}: {field}");
         let good = matches!(lines.as_slice(), [line] if line.starts_with(&start)
             && in_order(&line[start.len()..], case.words)
             && line[start.len()..].contains("; "));
@@ -52,19 +60,24 @@ pub fn judge(cases: &[Case]) {
     assert!(failures.is_empty(), "{} of {} cases:\n{}", failures.len(), cases.len(), failures.join("\n"));
 }
 
-/// A message without the line number behind a URDF file's name, which must be there where a field of it is named.
-fn without_line(message: &str, case: &Case) -> String {
-    let Some((file, rest)) = message.split_once(".urdf:").filter(|_| case.file.ends_with(".urdf")) else {
+/// A message without line and column behind the name of `file`. Where a field is named, the line must be there, and in the
+/// specification the column too.
+fn without_place(message: &str, file: &str, case: &Case) -> String {
+    let Some((place, rest)) = message.strip_prefix(file).and_then(|rest| rest.split_once(": ")) else {
         return message.to_string();
     };
-    let digits = rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit()).len();
-    if digits == 0 && !case.field.is_empty() {
-        return format!("no line in {message}");
+    let numbers: Vec<&str> = place.split(':').filter(|part| !part.is_empty()).collect();
+    let digits = numbers.iter().all(|number| number.bytes().all(|byte| byte.is_ascii_digit()));
+    let needed = match (case.field.is_empty(), case.file.ends_with(".json")) {
+        (true, _) => usize::from(case.line.is_some()),
+        (false, true) => 2,
+        (false, false) => 1,
+    };
+    let wrong = case.line.is_some_and(|line| numbers.first() != Some(&line.to_string().as_str()));
+    if !digits || wrong || numbers.len() < needed {
+        return format!("no place in {message}");
     }
-    format!(
-        "{file}.urdf:{}",
-        &rest[digits..].strip_prefix(':').filter(|_| digits > 0).map_or(rest, |rest| rest)
-    )
+    format!("{file}: {rest}")
 }
 
 fn in_order(mut text: &str, words: &[&str]) -> bool {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use crate::common::{finish, gramforge, value};
+use crate::common::{Outcome, finish, gramforge, value};
 
 /// What a user might have written.
 pub struct Input {
@@ -104,9 +104,14 @@ pub fn urdf_joint(name: &str, kind: &str, parent: &str, child: &str, more: &str)
     )
 }
 
-/// The fault lines of `gramforge generate SPECS --out DIR --json`, after asserting exit code 2, an empty standard
-/// output and an output folder that stays as it was.
+/// The fault lines of `gramforge generate SPECS --out DIR --json`; see [`refused`].
 pub fn faults(folder: &Path, specs: &[PathBuf]) -> Vec<String> {
+    refused(folder, specs).faults()
+}
+
+/// `gramforge generate SPECS --out DIR --json`, after asserting exit code 2, the same faults on standard output as on
+/// standard error, and an output folder that stays as it was.
+pub fn refused(folder: &Path, specs: &[PathBuf]) -> Outcome {
     let out = folder.join("out");
     fs::create_dir_all(&out).expect("a folder");
     let standing = out.join("arm3_xi2.rs");
@@ -123,5 +128,20 @@ pub fn faults(folder: &Path, specs: &[PathBuf]) -> Vec<String> {
     assert_eq!(files.as_slice(), std::slice::from_ref(&standing), "nothing else was written");
     assert_eq!(fs::read_to_string(&standing).expect("readable"), "standing\n");
     assert_eq!(fs::metadata(&standing).and_then(|m| m.modified()).expect("a time"), before);
-    outcome.stderr.lines().map(str::to_string).collect()
+    let lines = outcome.faults();
+    let told = lines.iter().filter(|line| !line.starts_with("and ")).count();
+    assert_eq!(outcome.errors().len().min(MOST_TOLD), told, "{outcome:#?}");
+    for (error, line) in outcome.errors().iter().zip(&lines) {
+        let text = |key: &str| error[key].as_str().expect("a text").to_string();
+        for part in [text("file"), text("field")] {
+            assert!(line.contains(&part), "{part:?} is not in {line:?}");
+        }
+        assert!(
+            error["column"].is_null() || line.contains(&format!(":{}:{}: ", error["line"], error["column"]))
+        );
+    }
+    outcome
 }
+
+/// Faults that are shown.
+const MOST_TOLD: usize = 100;

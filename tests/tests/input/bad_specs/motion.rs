@@ -109,37 +109,41 @@ const CASES: &[Case] = &[
         |i| {
             i.csv("0,0,0,0\n1,NaN,0,0\n2,0,0,0\n");
         },
-        "line 2",
+        "",
         &["column 2 is `NaN`", "write a finite number"],
     )
-    .inside("motion.csv"),
+    .inside("motion.csv")
+    .line(2),
     case(
         "table with a word",
         |i| {
             i.csv("t,a,b,c\n0,0,0,0\n1,0,zero,0\n2,0,0,0\n");
         },
-        "line 3",
+        "",
         &["column 3 is `zero`", "write a finite number"],
     )
-    .inside("motion.csv"),
+    .inside("motion.csv")
+    .line(3),
     case(
         "table with a column too few",
         |i| {
             i.csv("0,0,0,0\n1,0,0\n2,0,0,0\n");
         },
-        "line 2",
+        "",
         &["has 3 columns", "write 4 columns"],
     )
-    .inside("motion.csv"),
+    .inside("motion.csv")
+    .line(2),
     case(
         "table whose times fall",
         |i| {
             i.csv("0,0,0,0\n1,0,0,0\n1,0,0,0\n2,0,0,0\n");
         },
-        "line 3",
+        "",
         &["time 1 is not later than 1", "increasing times"],
     )
-    .inside("motion.csv"),
+    .inside("motion.csv")
+    .line(3),
     case(
         "table of two rows",
         |i| {
@@ -227,10 +231,11 @@ const CASES: &[Case] = &[
         |i| {
             i.csv(&(0..30_000).map(|k| format!("{}.0,0.1,0.2,-1.2\n", k)).collect::<String>());
         },
-        "line 20001",
+        "",
         &["is row 20001 of numbers", "at most 20000 are read", "keep every second row"],
     )
-    .inside("motion.csv"),
+    .inside("motion.csv")
+    .line(20001),
     case(
         "more waypoints than a module should hold",
         |i| {

@@ -3,13 +3,14 @@
 use serde_json::json;
 
 use super::input::{Input, faults, urdf_joint, urdf_link};
+use crate::common::unplaced;
 
 /// The inputs, as `spec0.json`, `spec1.json` …, have exactly these faults.
 fn expect(inputs: &[Input], wanted: &[&str]) {
     let folder = tempfile::tempdir().expect("a folder");
     let write = |(index, input): (usize, &Input)| input.write(folder.path(), &format!("spec{index}.json"));
     let specs: Vec<_> = inputs.iter().enumerate().map(write).collect();
-    let lines = faults(folder.path(), &specs);
+    let lines: Vec<String> = faults(folder.path(), &specs).iter().map(|line| unplaced(line)).collect();
     let shown = lines.join("\n");
     assert_eq!(lines.len(), wanted.len(), "{shown}");
     for fault in wanted {
@@ -113,11 +114,7 @@ fn in_the_table_and_in_the_specification() {
     input.csv("0,0,0,0\n1,0,x,0\n2,0,0\n1,0,0,0\n3,0,0,0\n").control("period", json!(0));
     expect(
         &[input],
-        &[
-            "motion.csv: line 2: column 3 is `x`",
-            "motion.csv: line 3: has 3 columns",
-            "spec0.json: control.period: is 0",
-        ],
+        &["motion.csv: column 3 is `x`", "motion.csv: has 3 columns", "spec0.json: control.period: is 0"],
     );
 }
 
@@ -147,7 +144,7 @@ fn in_two_specifications() {
         &[
             "spec0.json: arm.dh.links[1].mass: is -1",
             "spec0.json: control.period: is 0",
-            "spec1.json: line 1, column ",
+            "spec1.json: is not JSON that can be read (expected value)",
         ],
     );
 }

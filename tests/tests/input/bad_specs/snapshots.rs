@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::input::{Input, faults, urdf_joint, urdf_link};
+use super::input::{Input, refused, urdf_joint, urdf_link};
 
 /// A name, and what is done to a good input.
 type Refusal = (&'static str, fn(&mut Input));
@@ -49,8 +49,8 @@ fn typical_refusals_read_as_they_were_judged() {
         let mut input = Input::good();
         spoil(&mut input);
         let spec = input.write(folder.path(), "spec.json");
-        let lines = faults(folder.path(), &[spec]);
-        let text = lines.join("\n").replace(&format!("{}/", folder.path().display()), "") + "\n";
+        let outcome = refused(folder.path(), &[spec]);
+        let text = outcome.stderr.replace(&format!("{}/", folder.path().display()), "");
         let path = kept.join(name).with_extension("txt");
         if update {
             fs::write(&path, text).expect("written");

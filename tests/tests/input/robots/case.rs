@@ -175,14 +175,17 @@ impl Case {
     pub fn refused(&self, at: Option<&str>, field: &str, words: &[&str]) {
         let message = self.run(self.text().as_bytes()).map(|_| ()).expect_err(self.name);
         let start = match (at, field) {
-            (Some(part), "") => format!("arm.urdf:{}: ", self.line(part)),
-            (Some(part), field) => format!("arm.urdf:{}: {field}: ", self.line(part)),
+            (Some(_), "") => "arm.urdf: ".to_string(),
+            (Some(_), field) => format!("arm.urdf: {field}: "),
             (None, field) => format!("{field}: "),
         };
         assert_eq!(message.lines().count(), 1, "{}: {message}", self.name);
-        let rest = message
-            .strip_prefix(&start)
-            .unwrap_or_else(|| panic!("{}: {message:?} for {start:?}", self.name));
+        let line = at.map(|part| self.line(part).to_string());
+        let told = gramforge_tests::unplaced(&message);
+        let place = message.strip_prefix("arm.urdf:").and_then(|rest| rest.split([':', ' ']).next());
+        assert!(line.is_none() || place == line.as_deref(), "{}: {message:?} for line {line:?}", self.name);
+        let rest =
+            told.strip_prefix(&start).unwrap_or_else(|| panic!("{}: {message:?} for {start:?}", self.name));
         let mut left = rest;
         for word in words {
             let (_, behind) =

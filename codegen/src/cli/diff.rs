@@ -1,0 +1,89 @@
+//! `gramforge diff`: what differs between two modules.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::json;
+use super::progress::watched;
+use crate::bounds::Effort;
+use crate::changes::{Changes, ModuleText};
+use crate::check::read;
+use crate::error::Error;
+use crate::pipeline::Generation;
+use crate::report::changes_text;
+use crate::sizes::{Size, run};
+
+/// Shows what differs between two modules: functions with their share, numbers that moved, costs, promises, then the source.
+///
+/// Each of A and B is a specification or a generated module (`.rs`). With --sizes it is one specification at two sizes.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: gramforge diff arm.json --sizes exact,xi6")]
+pub(super) struct Diff {
+    /// The first specification or module.
+    a: PathBuf,
+    /// The second one.
+    #[arg(required_unless_present = "sizes", conflicts_with = "sizes")]
+    b: Option<PathBuf>,
+    /// Two sizes of the specification A, such as exact,xi6: see `gramforge sweep`.
+    #[arg(long, value_delimiter = ',')]
+    sizes: Vec<Size>,
+    /// Exit with 1 where the modules differ.
+    #[arg(long)]
+    exit_code: bool,
+    /// Print JSON.
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+impl Diff {
+    /// What is printed, and whether the process ends with 1.
+    pub(super) fn run(&self) -> Result<(String, bool), Error> {
+        let [before, after] = self.modules()?;
+        let changes = Changes::new(&before, &after);
+        let text = if self.json { json(&changes)? } else { changes_text(&changes) };
+        Ok((text, self.exit_code && changes.differ))
+    }
+
+    fn modules(&self) -> Result<[ModuleText; 2], Error> {
+        match (&self.b, self.sizes.as_slice()) {
+            (Some(b), _) => both(module(&self.a), module(b)),
+            (None, [first, second]) => both(self.sized(first), self.sized(second)),
+            (None, sizes) => {
+                let problem = format!("names {} sizes", sizes.len());
+                Err(Error::input(Path::new("arguments"), "--sizes", problem, "name two, such as exact,xi6"))
+            }
+        }
+    }
+
+    /// The specification A at `size`.
+    fn sized(&self, size: &Size) -> Result<ModuleText, Error> {
+        let loaded = read(&self.a)?;
+        let (_, generation) = watched(|progress| run(&loaded, size, true, progress))?;
+        ModuleText::new(size.label(), generation.module()?, &self.a)
+    }
+}
+
+/// The module at `path`, or that of the specification at `path`.
+fn module(path: &Path) -> Result<ModuleText, Error> {
+    if path.extension().is_some_and(|end| end == "rs") {
+        return ModuleText::read(path);
+    }
+    let loaded = read(path)?;
+    let generation = watched(|progress| Generation::with_progress(loaded, &Effort::default(), progress))?;
+    ModuleText::new(path.display().to_string(), generation.module()?, path)
+}
+
+/// Both, or the faults of both.
+fn both(
+    first: Result<ModuleText, Error>,
+    second: Result<ModuleText, Error>,
+) -> Result<[ModuleText; 2], Error> {
+    match (first, second) {
+        (Err(Error::Input(mut faults)), Err(Error::Input(more))) => {
+            faults.extend(more.into_iter().filter(|fault| !faults.contains(fault)).collect::<Vec<_>>());
+            Err(Error::Input(faults))
+        }
+        (first, second) => Ok([first?, second?]),
+    }
+}
