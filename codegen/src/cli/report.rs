@@ -68,7 +68,8 @@ impl Report {
         };
         let own = one(loaded, Size::default())?;
         let alike = with_gains_of(&own.generation);
-        let others: Vec<Result<Study, Error>> = others.into_par_iter().map(|size| one(&alike, size)).collect();
+        let others: Vec<Result<Study, Error>> =
+            others.into_par_iter().map(|size| one(&alike, size)).collect();
         // A size that nobody has named may be one that the specification cannot have.
         let kept = others.into_iter().filter(|study| study.is_ok() || !self.sizes.is_empty());
         Ok((own, kept.collect::<Result<_, _>>()?))
