@@ -23,6 +23,7 @@ pub(crate) use docs::functions;
 pub use facts::Facts;
 pub use type_name::type_name;
 
+#[cfg(feature = "cli")]
 pub(crate) use docs::{
     domain as domain_in_words, met as met_in_words, rates as rates_in_words, torque as torque_in_words,
 };

@@ -171,6 +171,7 @@ impl Generation {
     ///
     /// # Errors
     /// [`Error::Input`] where there is no controller, or where it is refused with that robust gain.
+    #[cfg(any(feature = "simulate", test))]
     pub(crate) fn design_with(&self, constant: bool) -> Result<Design, Error> {
         self.designed.with_other_gain(constant)
     }
