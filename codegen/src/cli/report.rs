@@ -44,8 +44,7 @@ impl Report {
         let loaded = read(&self.spec)?;
         let (own, others) = watched(|progress| self.studies(&loaded, progress))?;
         show_warnings(own.generation.warnings());
-        let count = others.len() + 1;
-        let page = html_report(own, others)?;
+        let (page, count) = html_report(own, others)?;
         let written = write_if_changed(&self.out, &page)?;
         let state = if written { "written" } else { "unchanged" };
         let path = self.out.display();

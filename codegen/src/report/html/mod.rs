@@ -30,11 +30,11 @@ use crate::sizes::Size;
 use crate::spec::ModelSpec;
 
 /// The report on the size of a specification, `own`, and on other sizes of it. The slider goes from the size with the largest
-/// certified error to the exact one.
+/// certified error to the exact one. Gives the page and the number of sizes on it: those that come out the same count once.
 ///
 /// # Errors
 /// [`Error::Internal`] where numbers cannot be written as JSON.
-pub fn html_report(mut own: Study, mut others: Vec<Study>) -> Result<String, Error> {
+pub fn html_report(mut own: Study, mut others: Vec<Study>) -> Result<(String, usize), Error> {
     let name = own.generation.spec().name.clone();
     let specified = Size::of(own.generation.spec().model.clone()).label();
     own.label = format!("{specified} (specified)");
@@ -50,7 +50,8 @@ pub fn html_report(mut own: Study, mut others: Vec<Study>) -> Result<String, Err
     let shown = others.iter().position(|study| study.label == label).unwrap_or(0);
     let overview = (others.len() > 1).then(|| sizes::figure(&others, twins));
     let figures: Vec<Vec<Option<Figure>>> = others.iter().map(|study| all(study, &overview)).collect();
-    page::Page { name: &name, studies: &others, own: shown, figures: &figures }.html()
+    let page = page::Page { name: &name, studies: &others, own: shown, figures: &figures }.html()?;
+    Ok((page, others.len()))
 }
 
 /// The studies without those that come out as another one: the exact model for a tolerance within which nothing is cheaper, the

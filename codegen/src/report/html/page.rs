@@ -97,7 +97,7 @@ impl Page<'_> {
         out += ". This page holds all of its data and loads nothing.</p>\n";
         out += "<noscript><p>The pictures need scripts to be allowed. The words under them do not.</p></noscript>\n</footer>\n";
         out += "<div id=\"tip\" aria-hidden=\"true\" hidden></div>\n";
-        let _ = write!(out, "<script type=\"application/json\" id=\"data\">{data}</script>\n");
+        let _ = writeln!(out, "<script type=\"application/json\" id=\"data\">{data}</script>");
         let script = SCRIPT.join("\n");
         let _ = write!(out, "<script>\n\"use strict\";\n(() => {{\n{script}}})();\n</script>\n");
         out += "</body>\n</html>\n";
