@@ -20,6 +20,7 @@ fn main() {
         "step_switching",
         "step_constant",
         "step_exact",
+        "workspace_checked",
         "single_sign",
         "single_adaptive",
         "single_puma",

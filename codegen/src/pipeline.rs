@@ -6,6 +6,7 @@ mod designed;
 mod expanded;
 mod generation;
 mod judged;
+#[cfg(feature = "cli")]
 mod limits;
 mod modelled;
 mod proved;
@@ -20,6 +21,7 @@ mod verdict;
 #[cfg(feature = "cli")]
 pub(crate) use expanded::candidates;
 pub use generation::Generation;
+#[cfg(feature = "cli")]
 pub(crate) use limits::Limits;
 pub(crate) use proved::keep;
 

@@ -2,7 +2,7 @@
 
 use crate::law::{Law, Sample};
 use crate::vector::first_not_finite;
-use crate::{ConfigError, Desired, Fault, Model, Quantity, Real, Requirement};
+use crate::{ConfigError, Desired, Fault, Model, Quantity, Real, Reason, Requirement};
 
 /// What the controller commands when a number is infinite or NaN.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -229,7 +229,9 @@ impl<M: Model<N>, L: Law<M, N>, const N: usize> Controller<M, L, N> {
     fn finite(&self, x: &[M::Scalar; N], quantity: Quantity) -> Result<(), Fault<M::Scalar, N>> {
         match first_not_finite(x) {
             None => Ok(()),
-            Some(joint) => Err(Fault { quantity, joint, command: self.safe_command() }),
+            Some(joint) => {
+                Err(Fault { quantity, reason: Reason::NotFinite, joint, command: self.safe_command() })
+            }
         }
     }
 }

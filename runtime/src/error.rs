@@ -98,13 +98,35 @@ impl Display for Quantity {
     }
 }
 
-/// A control step that met a number which is infinite or NaN, and what to command instead.
+/// What is wrong with a quantity of the control loop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Reason {
+    /// It is infinite or NaN.
+    NotFinite,
+    /// It is beyond the limits that the controller was generated for ([`ReferenceLimits`](crate::ReferenceLimits)): what is promised no
+    /// longer holds.
+    BeyondLimits,
+}
+
+impl Display for Reason {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NotFinite => "not finite",
+            Self::BeyondLimits => "beyond its limits",
+        })
+    }
+}
+
+/// A control step that met a number which it cannot use, and what to command instead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Fault<T, const N: usize> {
-    /// The quantity that is not finite; of several the first in the order of [`Quantity`].
+    /// The quantity at fault; of several the first in the order of [`Quantity`].
     pub quantity: Quantity,
-    /// The first joint whose quantity is not finite, from 0.
+    /// What is wrong with it. Numbers that are not finite come first.
+    pub reason: Reason,
+    /// The first joint whose quantity is at fault, from 0.
     pub joint: usize,
     /// The safe command of the controller's [`OnFault`](crate::OnFault), finite and within the limits, N·m.
     pub command: [T; N],
@@ -112,7 +134,7 @@ pub struct Fault<T, const N: usize> {
 
 impl<T, const N: usize> Display for Fault<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{}[{}] is not finite", self.quantity, self.joint)
+        write!(f, "{}[{}] is {}", self.quantity, self.joint, self.reason)
     }
 }
 

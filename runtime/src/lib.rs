@@ -83,7 +83,7 @@ pub mod trig;
 mod vector;
 
 pub use controller::{Command, Controller, OnFault, Settings, TorqueController};
-pub use error::{ConfigError, Fault, PlantError, Quantity, Requirement};
+pub use error::{ConfigError, Fault, PlantError, Quantity, Reason, Requirement};
 pub use estimate::Estimate;
 pub use guarantee::{Guarantee, SampledErrors};
 pub use law::{
@@ -92,7 +92,7 @@ pub use law::{
 pub use model::{Bounds, Model};
 pub use real::Real;
 pub use reference::{
-    Desired, QuinticReference, Reference, SinusoidReference, SplineReference, TickReference,
+    Desired, QuinticReference, Reference, ReferenceLimits, SinusoidReference, SplineReference, TickReference,
 };
 pub use regression::{AdaptiveModel, Regression};
 pub use step::{ControlStep, StepController};

@@ -31,7 +31,7 @@ class Loop:
         """The field `arm` of the specification, with a payload of this mass, kg."""
         arm = read(ROOT / KNOWN[self.arm][0])["arm"]
         if "urdf" in arm:
-            moving = [x.get("name") for x in xml.parse(arm["urdf"]).getroot().iter("joint") if x.get("type") == "revolute"]
+            moving = [joint.get("name") for joint in joints(arm["urdf"]) if joint.get("type") == "revolute"]
             drives = zip(moving, self.armature, self.viscous, strict=True)
             # A whole workspace, which `evaluate` is asked for, needs limits of the acceleration.
             arm["joints"] = {
@@ -42,7 +42,7 @@ class Loop:
         return arm
 
     def specification(self, gramforge):
-        """The controller's specification. K is 100/s times the inertia that a joint moves at home while the others are free."""
+        """The controller's specification. K is 100/s times the inertia that a joint moves while the others are free."""
         still = [0.0] * len(self.home)
         mass_matrix = evaluated(gramforge, self, PAYLOAD, [(self.home, still, still)])[0]["D"]
         damping = 100 / np.diag(np.linalg.inv(mass_matrix))
@@ -111,6 +111,11 @@ def evaluated(gramforge, loop, mass, states):
     return json.loads(outputs([command])[0])
 
 
+def joints(urdf):
+    """The joints of a robot file, as its elements."""
+    return list(xml.parse(urdf).getroot().iter("joint"))
+
+
 def tip(description):
     """Position and rotation of the tip in the frame of the last moving joint."""
     position, rotation = np.zeros(3), np.eye(3)
@@ -119,10 +124,10 @@ def tip(description):
         last = description["dh"]["links"][-1]
         assert last["a"] == last["d"] == last["alpha"] == 0.0
         return position, rotation
-    joints = list(xml.parse(description["urdf"]).getroot().iter("joint"))
-    moving = [joint for joint in joints if joint.get("type") == "revolute"]
+    every = joints(description["urdf"])
+    moving = [joint for joint in every if joint.get("type") == "revolute"]
     link = moving[-1].find("child").get("link")
-    while found := [joint for joint in joints if joint.find("parent").get("link") == link]:
+    while found := [joint for joint in every if joint.find("parent").get("link") == link]:
         origin = found[0].find("origin")
         position = position + rotation @ np.array(origin.get("xyz").split(), dtype=float)
         rotation = rotation @ turned(*map(float, origin.get("rpy").split()))
@@ -150,4 +155,5 @@ def load(joint, mass, at):
     reduced = own * mass / (own + mass)
     joint["mass"] = own + mass
     joint["com"] = list(com + mass / (own + mass) * lever)
-    joint["I_com"] = (np.array(joint["I_com"]) + reduced * (lever @ lever * np.eye(3) - np.outer(lever, lever))).tolist()
+    added = reduced * (lever @ lever * np.eye(3) - np.outer(lever, lever))
+    joint["I_com"] = (np.array(joint["I_com"]) + added).tolist()

@@ -2,7 +2,8 @@
 
 use super::{
     Bounds, Certificate, Effort, Met, Rates, Torque, TorqueScale, certified_telling, code_rounding,
-    position_bound, published, recursion, recursion_rounding, torque_error, vanishing, with_sines,
+    position_bound, published, recursion, recursion_rounding, separate_error, torque_error, vanishing,
+    with_sines,
 };
 use crate::arm::{Arm, Uncertainty};
 use crate::domain::Domain;
@@ -87,20 +88,34 @@ impl ModelError<'_> {
         let fraction = self.loaded.spec.model.tolerance().filter(|_| known);
         let proved = fraction.map(|fraction| scale.limits(fraction));
         let single = self.single_rounding(&scale.rates);
-        let error = plus(self.error(certificates, bounds, &scale.rates, proved), single.as_deref());
+        let own = self.error(certificates, bounds, &scale.rates, Sought::All(proved));
+        let error = plus(own, single.as_deref());
         let rounding = plus(self.rounding().torque(&scale.rates), single.as_deref());
         Torque { error, peak: scale.peak, rounding, rates: scale.rates }
     }
 
-    /// The same at the rates that a law meets.
-    pub fn met(&self, certificates: &[Certificate], bounds: &Bounds, rates: &Rates) -> Met {
-        let error = self.torque_error(certificates, bounds, rates);
+    /// The same at the rates that a law meets, from its torque error without what f32 code rounds by.
+    pub fn met(&self, error: Vec<f64>, rates: &Rates) -> Met {
         Met { error: plus(error, self.single_rounding(rates).as_deref()), rates: rates.clone() }
     }
 
-    /// The same without what f32 code rounds by.
-    pub fn torque_error(&self, certificates: &[Certificate], bounds: &Bounds, rates: &Rates) -> Vec<f64> {
-        self.error(certificates, bounds, rates, None)
+    /// Bound on the torque error by joint for rates up to `rates`, N·m or N, without what f32 code rounds by. Without a `search` over
+    /// the domain it is what the coefficients do if all are off by most at once.
+    pub fn torque_error(
+        &self,
+        certificates: &[Certificate],
+        bounds: &Bounds,
+        rates: &Rates,
+        search: bool,
+    ) -> Vec<f64> {
+        self.error(certificates, bounds, rates, if search { Sought::All(None) } else { Sought::Nothing })
+    }
+
+    /// Whether the search that found `torque` bounds it lower than the coefficients by themselves. Where it does not, it would only take
+    /// time at other rates.
+    pub fn search_pays(&self, certificates: &[Certificate], bounds: &Bounds, torque: &Torque) -> bool {
+        let separate = self.torque_error(certificates, bounds, &torque.rates, false);
+        torque.error.iter().zip(separate).any(|(found, separate)| *found < separate)
     }
 
     /// What f32 code rounds by, by joint, N·m or N, for rates up to `rates`; `None` for f64 code, whose rounding is part of every
@@ -110,20 +125,24 @@ impl ModelError<'_> {
         (scalar == ScalarSpec::F32).then(|| code_rounding(self.code, self.domain, rates, scalar.format()))
     }
 
-    /// Bounds by joint, N·m or N, for rates up to `rates`; what the choice of a model has `proved`, perhaps with more work,
-    /// is for sines within an ulp.
+    /// Bounds by joint, N·m or N, for rates up to `rates`.
     fn error(
         &self,
         certificates: &[Certificate],
         bounds: &Bounds,
         rates: &Rates,
-        proved: Option<Vec<f64>>,
+        sought: Sought,
     ) -> Vec<f64> {
         let Self { lagrangian, reduced, domain, .. } = *self;
         let own: Vec<f64> = if self.form == Form::Recursive && reduced.is_exact() {
             bounds.torque(rates)
         } else {
-            let mut error = torque_error(lagrangian, reduced, domain, certificates, rates);
+            let (mut error, proved) = match sought {
+                Sought::All(proved) => {
+                    (torque_error(lagrangian, reduced, domain, certificates, rates), proved)
+                }
+                Sought::Nothing => (separate_error(lagrangian, certificates, rates), None),
+            };
             for (i, (error, limit)) in error.iter_mut().zip(proved.into_iter().flatten()).enumerate() {
                 let multipliers = rates.multipliers(lagrangian, i);
                 let sines: f64 = certificates.iter().zip(&multipliers).map(|(c, u)| c.sines * u).sum();
@@ -166,6 +185,14 @@ impl ModelError<'_> {
             Form::Expanded | Form::Sparse => bounds,
         }
     }
+}
+
+/// How the torque error is bounded.
+enum Sought {
+    /// By a search over the domain; what the choice of a model has proved, perhaps with more work, is for sines within an ulp.
+    All(Option<Vec<f64>>),
+    /// By the bounds of the coefficients alone.
+    Nothing,
 }
 
 /// The sum by joint, rounded up.

@@ -1,6 +1,7 @@
 //! Whether the numbers of a specification make sense together with its arm.
 
 mod c_api;
+mod check_reference;
 mod checked;
 mod control;
 mod domain;
@@ -154,6 +155,7 @@ fn check(loaded: &Loaded, arm: Option<&Arm>, faults: &mut Diagnostics) -> Option
         );
     }
     c_api::check(spec, faults);
+    check_reference::check(spec, arm, faults);
     if let Some(duration) = spec.simulation.duration.filter(|v| *v <= 0.0) {
         faults.push(
             "simulation.duration",

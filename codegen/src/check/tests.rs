@@ -54,6 +54,48 @@ fn names_name_modules() {
 }
 
 #[test]
+fn a_check_of_the_desired_motion_needs_limits_and_no_motion() {
+    let limited = |v: &mut Value| {
+        v["emit"] = json!({ "check_reference": true });
+        v["measure"] = json!("workspace");
+        v.as_object_mut().expect("an object").remove("motion");
+        for link in v["arm"]["dh"]["links"].as_array_mut().expect("links") {
+            link["limits"] = json!({ "position": [-1.0, 1.0], "velocity": 1.0, "acceleration": 3.0 });
+        }
+    };
+    expect(limited, &[]);
+    expect(
+        |v| v["emit"] = json!({ "check_reference": true }),
+        &[
+            "emit.check_reference: asks for a check of the program's own motions, but what is promised is about `motion`; remove",
+            "emit.check_reference: needs the limits of velocity and acceleration of every joint, which are missing for joint1, joint2, joint3; add",
+        ],
+    );
+    let more = |v: &mut Value| {
+        limited(v);
+        v["emit"]["law"] = json!("runtime");
+        v["arm"]["dh"]["links"][1]["limits"] = json!({ "position": [-1.0, 1.0], "velocity": 1.0 });
+    };
+    expect(
+        more,
+        &[
+            "emit.check_reference: asks for a check that is part of a step that is written out, but `emit.law` is `runtime`; remove",
+            "emit.check_reference: needs the limits of velocity and acceleration of every joint, which are missing for joint2; add",
+        ],
+    );
+    let none = |v: &mut Value| {
+        limited(v);
+        v.as_object_mut().expect("an object").remove("control");
+    };
+    expect(
+        none,
+        &[
+            "emit.check_reference: asks the controller to check the desired motion, but there is no `control`; add",
+        ],
+    );
+}
+
+#[test]
 fn motions_fit_the_arm() {
     expect(
         |v| v["motion"]["quintic"] = json!({ "from": [0.0], "to": [0.0, 1.0, 1.0, 1.0], "duration": 0.0 }),

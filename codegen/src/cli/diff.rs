@@ -10,9 +10,10 @@ use crate::bounds::Effort;
 use crate::changes::{Changes, ModuleText};
 use crate::check::read;
 use crate::error::Error;
+use crate::load::Loaded;
 use crate::pipeline::Generation;
 use crate::report::changes_text;
-use crate::sizes::{Size, run};
+use crate::sizes::{Size, run, with_gains};
 
 /// Shows what differs between two modules: functions with their share, numbers that moved, costs, promises, then the source.
 ///
@@ -48,20 +49,23 @@ impl Diff {
     fn modules(&self) -> Result<[ModuleText; 2], Error> {
         match (&self.b, self.sizes.as_slice()) {
             (Some(b), _) => both(module(&self.a), module(b)),
-            (None, [first, second]) => both(self.sized(first), self.sized(second)),
+            (None, [first, second]) => {
+                let read = read(&self.a)?;
+                let loaded = watched(|progress| with_gains(&read, progress))?;
+                both(sized(&loaded, first), sized(&loaded, second))
+            }
             (None, sizes) => {
                 let problem = format!("names {} sizes", sizes.len());
                 Err(Error::input(Path::new("arguments"), "--sizes", problem, "name two, such as exact,xi6"))
             }
         }
     }
+}
 
-    /// The specification A at `size`.
-    fn sized(&self, size: &Size) -> Result<ModuleText, Error> {
-        let loaded = read(&self.a)?;
-        let (_, generation) = watched(|progress| run(&loaded, size, true, progress))?;
-        ModuleText::new(size.label(), generation.module()?, &self.a)
-    }
+/// The specification `loaded` at `size`.
+fn sized(loaded: &Loaded, size: &Size) -> Result<ModuleText, Error> {
+    let (_, generation) = watched(|progress| run(loaded, size, true, progress))?;
+    ModuleText::new(size.label(), generation.module()?, &loaded.path)
 }
 
 /// The module at `path`, or that of the specification at `path`.

@@ -227,10 +227,7 @@ fn about(first: &First) -> String {
             crate::text::listed(&bare)
         );
     }
-    out += &format!(
-        "Motion: 3 decimals, {:?} s, about the middle of the joints' ranges\n",
-        first.motion.duration
-    );
+    out += &format!("Motion: {:?} s, about the middle of the joints' ranges\n", first.motion.duration);
     out
 }
 
@@ -238,9 +235,14 @@ fn about(first: &First) -> String {
 fn next(out: &Path) -> String {
     let path = out.display();
     let stem = out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    format!(
-        "Next:\n  gramforge inspect {path}                what it amounts to\n  gramforge simulate {path} --runs 100    how it tracks\n  \
-         gramforge sweep {path}                  which model size pays\n  gramforge report {path} --out {stem}.html  all of it, with pictures\n  \
-         gramforge generate {path} --out src     the module\n"
-    )
+    let commands = [
+        (format!("gramforge inspect {path}"), "what it amounts to"),
+        (format!("gramforge sweep {path}"), "which model size pays"),
+        (format!("gramforge simulate {path} --runs 100"), "how it tracks"),
+        (format!("gramforge report {path} --out {stem}.html"), "all of it, with pictures"),
+        (format!("gramforge generate {path} --out src"), "the module"),
+    ];
+    let width = commands.iter().map(|(command, _)| command.chars().count()).max().unwrap_or_default();
+    let line = |(command, what): &(String, &str)| format!("  {command:width$}  {what}\n");
+    format!("Next:\n{}", commands.iter().map(line).collect::<String>())
 }

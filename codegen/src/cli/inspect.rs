@@ -82,6 +82,8 @@ struct Inspection<'a> {
     control: Option<ControlView<'a>>,
     /// What is promised; `null` without a controller.
     guarantee: Option<PromiseView<'a>>,
+    /// What a desired motion of the program's own must keep; `null` with a motion, without a controller, or where a limit is missing.
+    reference: Option<ReferenceView<'a>>,
     /// What is promised of the continuous law; `null` without a controller.
     continuous: Option<GuaranteeView<'a>>,
     warnings: &'a [String],
@@ -204,6 +206,19 @@ struct PromiseView<'a> {
     /// With `--limits`: the longest period and the largest initial position errors for which `sampled` was found to hold.
     period_max: Option<f64>,
     initial_error_max: Option<Vec<f64>>,
+}
+
+#[derive(Serialize)]
+struct ReferenceView<'a> {
+    /// Lowest and highest desired position by joint, rad or m.
+    position: &'a [[f64; 2]],
+    /// Largest desired speed and acceleration by joint.
+    velocity: &'a [f64],
+    acceleration: &'a [f64],
+    /// Whether the step reports a fault beyond these, and what that takes beside the operations of the step.
+    checked: bool,
+    comparisons: usize,
+    absolute_values: usize,
 }
 
 #[derive(Serialize)]

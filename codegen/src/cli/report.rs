@@ -13,23 +13,26 @@ use crate::output::write_if_changed;
 use crate::parallel::Parallelize;
 use crate::progress::{Progress, Silent, Stage};
 use crate::report::{ReportEffort, Study, counted, html_report};
-use crate::sizes::{Size, default_sizes};
+use crate::sizes::{Size, default_sizes, with_gains_of};
 use crate::spec::ModelSpec;
 
 /// Writes one HTML file with every figure of a specification: the arm, its motion, bounds, costs, the guarantee and the loop in
 /// time, with a slider over model sizes.
 ///
 /// The file holds all of its data and loads nothing: open it in any browser, print it, or send it.
-/// Example: gramforge report specs/arm.json --out arm.html
 #[derive(Debug, Args)]
+#[command(after_help = "Example: gramforge report arm.json --out arm.html")]
 pub(super) struct Report {
     /// The specification file.
     spec: PathBuf,
     /// The HTML file; folders that are missing are made.
     #[arg(long, value_name = "FILE.html")]
     out: PathBuf,
+    /// Other sizes on the slider, such as exact, xi6 or 1%. Default: about eight from small to exact.
+    #[arg(long, value_delimiter = ',')]
+    sizes: Vec<Size>,
     /// Show the size of the specification alone, without a slider.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "sizes")]
     one_size: bool,
     /// Runs that seek the largest errors of each size.
     #[arg(long, default_value_t = 32, value_parser = clap::value_parser!(u32).range(..=10_000))]
@@ -41,8 +44,7 @@ impl Report {
         let loaded = read(&self.spec)?;
         let (own, others) = watched(|progress| self.studies(&loaded, progress))?;
         show_warnings(own.generation.warnings());
-        let count = others.len() + 1;
-        let page = html_report(own, others)?;
+        let (page, count) = html_report(own, others)?;
         let written = write_if_changed(&self.out, &page)?;
         let state = if written { "written" } else { "unchanged" };
         let path = self.out.display();
@@ -52,15 +54,24 @@ impl Report {
     /// The specification's own size, which must succeed, and the others that can be had.
     fn studies(&self, loaded: &Loaded, progress: &dyn Progress) -> Result<(Study, Vec<Study>), Error> {
         let effort = ReportEffort { runs: self.runs as usize, guarantee: true };
-        let others = if self.one_size { Vec::new() } else { others(loaded)? };
+        let others = match (self.one_size, self.sizes.is_empty()) {
+            (true, _) => Vec::new(),
+            (false, true) => others(loaded)?,
+            (false, false) => self.sizes.clone(),
+        };
         let stage = Stage::new(progress, "model sizes", others.len() + 1);
-        let one = |size: Size| {
+        let one = |loaded: &Loaded, size: Size| {
             let _part = stage.part();
             // Stages of several sizes at once would be told in disorder.
             Study::new(loaded, &size, effort, &Silent)
         };
-        let own = one(Size::default())?;
-        Ok((own, others.into_par_iter().map(|size| one(size).ok()).filter_map(|study| study).collect()))
+        let own = one(loaded, Size::default())?;
+        let alike = with_gains_of(&own.generation);
+        let others: Vec<Result<Study, Error>> =
+            others.into_par_iter().map(|size| one(&alike, size)).collect();
+        // A size that nobody has named may be one that the specification cannot have.
+        let kept = others.into_iter().filter(|study| study.is_ok() || !self.sizes.is_empty());
+        Ok((own, kept.collect::<Result<_, _>>()?))
     }
 }
 

@@ -96,7 +96,7 @@ impl Simulate {
 }
 
 /// What was found beside what is certified, where anything is.
-fn beside(found: &MonteCarlo, sampled: Option<&Sampled>, joints: &[Joint]) -> String {
+pub(super) fn beside(found: &MonteCarlo, sampled: Option<&Sampled>, joints: &[Joint]) -> String {
     let Some(sampled) = sampled else { return monte_carlo_table(found, None, joints) };
     let [low, high] = sampled.torque_range();
     let torque_max: Vec<f64> = low.iter().zip(&high).map(|(low, high)| high.max(-low)).collect();
@@ -110,7 +110,7 @@ fn beside(found: &MonteCarlo, sampled: Option<&Sampled>, joints: &[Joint]) -> St
 }
 
 /// The largest errors and torques of that many runs, settled where the guarantee says.
-fn sought(generation: &Generation, scenario: &Scenario, runs: usize) -> Result<MonteCarlo, Error> {
+pub(super) fn sought(generation: &Generation, scenario: &Scenario, runs: usize) -> Result<MonteCarlo, Error> {
     let asked = generation.control().and_then(|control| control.settle);
     let proved = generation.statement().and_then(|statement| statement.sampled.as_ref());
     let settle = asked.or(proved.map(|sampled| sampled.settle)).unwrap_or(SETTLE);

@@ -5,16 +5,18 @@ use std::path::{Path, PathBuf};
 use clap::{Args, value_parser};
 
 use super::json;
-use super::progress::Bars;
+use super::progress::{Bars, watched};
 use crate::check::{Extent, checked, read};
 use crate::error::Error;
 use crate::load::Loaded;
 use crate::output::{Growing, write_all};
 use crate::report::{pareto_plot, size_line, sizes_csv, sizes_table};
-use crate::sizes::{Entry, Kept, Plan, Shard, Size, default_sizes, merged, sweep};
+use crate::sizes::{Entry, Kept, Plan, Shard, Size, default_sizes, merged, sweep, with_gains};
 use crate::spec::ModelSpec;
 
 /// Generates specifications at several model sizes and compares operations, certified torque errors, gains and code size.
+///
+/// Gains that `control.design` asks for are found once, for the model of the specification, and stay the same at every size.
 ///
 /// With --out every row is in the file as soon as it and those before it are done: an interruption keeps them, and the same command
 /// goes on from there.
@@ -129,6 +131,6 @@ impl Sweep {
         if sizes.is_empty() {
             sizes = default_sizes(&loaded)?;
         }
-        Ok((loaded, sizes))
+        Ok((watched(|progress| with_gains(&loaded, progress))?, sizes))
     }
 }

@@ -1,7 +1,7 @@
 //! A controller: its law, its gains, what they promise, and its step.
 
 use super::step::{RobustGain, StepGraph, StepParts};
-use super::{Adaptation, Envelope, Gains, Guarantee, least_eigenvalue, outweighs};
+use super::{Adaptation, Envelope, Gains, Guarantee, ReferenceLimits, least_eigenvalue, outweighs};
 use crate::bounds::{Bounds, Rates};
 use crate::check::Control;
 use crate::error::Diagnostics;
@@ -49,6 +49,8 @@ pub struct Design {
     pub on_fault: OnFaultSpec,
     /// What law `adaptive` learns.
     pub adaptation: Option<Adaptation>,
+    /// What the desired motion must keep for that; `None` with a motion in the specification.
+    pub reference: Option<ReferenceLimits>,
     /// What all that promises.
     pub guarantee: Guarantee,
 }

@@ -14,7 +14,7 @@ use crate::parallel::Parallelize;
 /// Pieces of the motion to begin with.
 const PIECES: u32 = 32;
 /// Pieces that may be looked at, for an arm of one joint: then the bounds found so far stand. What one costs grows with n.
-const BUDGET: usize = 60_000;
+pub(super) const BUDGET: usize = 60_000;
 /// Part of the duration below which a piece is not halved any more: its bound will not come down.
 const NARROWEST: f64 = 1e-9;
 /// Distance of bound and largest value at which halving ends, relative: of the torque, and of its rate, which converges an
@@ -30,16 +30,18 @@ pub(super) struct Feedforward {
     pub(super) torque: Vec<f64>,
     /// The largest that was seen at some instant.
     pub(super) seen: Vec<f64>,
-    /// |dτ_d/dt|, N·m/s or N/s: no instant exceeds it. Times the period it is what a held torque lags.
+    /// |dτ_d/dt|, N·m/s or N/s: no instant exceeds it. Times the period it is what a held torque lags, with `jump`.
     pub(super) rate: Vec<f64>,
+    /// What steps of q̈_d may change τ_d by within any time, N·m or N; 0 along a planned motion, whose rate has it.
+    pub(super) jump: Vec<f64>,
 }
 
 /// The arms of a family: τ is affine in the uncertain parameters.
-struct Family<'a> {
-    arm: &'a Arm,
-    uncertainty: &'a Uncertainty,
+pub(super) struct Family<'a> {
+    pub(super) arm: &'a Arm,
+    pub(super) uncertainty: &'a Uncertainty,
     /// The arms whose torques are ∂τ/∂u_k.
-    alone: Vec<Arm>,
+    pub(super) alone: Vec<Arm>,
 }
 
 /// A piece of the motion, with bounds and values seen: torques of all joints, then rates.
@@ -81,7 +83,8 @@ impl Feedforward {
             if halved.is_empty() {
                 let bound = largest(&closed, n, |piece| &piece.bound);
                 let (torque, rate) = bound.split_at(n);
-                return Self { torque: torque.to_vec(), seen: seen[..n].to_vec(), rate: rate.to_vec() };
+                let (torque, rate) = (torque.to_vec(), rate.to_vec());
+                return Self { torque, seen: seen[..n].to_vec(), rate, jump: vec![0.0; n] };
             }
             left -= 2 * halved.len();
             let halves = halved.iter().flat_map(|parent| {
@@ -94,6 +97,11 @@ impl Feedforward {
                 halves.into_par_iter().map(|(parent, ends)| family.judge(motion, ends).within(parent));
             open = judged.collect();
         }
+    }
+
+    /// What a torque that is held for `period` may lag behind, by joint, N·m or N.
+    pub(super) fn lag(&self, period: f64) -> Vec<f64> {
+        self.rate.iter().zip(&self.jump).map(|(rate, jump)| rate * period + jump).collect()
     }
 
     /// The joints whose torque limit is less than what the desired motion alone may take of some arm of the family,
@@ -136,7 +144,7 @@ impl Family<'_> {
     }
 
     /// Ranges of τ and dτ/dt by joint, of all arms of the family.
-    fn along(&self, span: &Span) -> Vec<Jet<Interval>> {
+    pub(super) fn along(&self, span: &Span) -> Vec<Jet<Interval>> {
         let mut total = torque(self.arm, span);
         for ((sum, joint), (qd, qdd)) in
             total.iter_mut().zip(&self.arm.joints).zip(span.qd.iter().zip(&span.qdd))

@@ -227,10 +227,7 @@ impl Parts<'_> {
             rounding: self.rounding,
             layer: self.layer(),
             period: self.tuning.period,
-            lag: self.feedforward.map_or_else(
-                || vec![0.0; arm.dof()],
-                |taken| taken.rate.iter().map(|rate| rate * self.tuning.period).collect(),
-            ),
+            lag: self.feedforward.map_or_else(|| vec![0.0; arm.dof()], |taken| taken.lag(self.tuning.period)),
             learning: self.adaptation.map(learning).transpose()?,
         })
     }

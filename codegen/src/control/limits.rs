@@ -38,7 +38,8 @@ impl Parts<'_> {
                 )
             }),
             self.feedforward.is_none().then(|| {
-                "without a motion nothing says how fast the torque changes that is held for a period"
+                "without a motion, limits of velocity and acceleration of each joint must say how fast the torque changes that \
+                 is held for a period"
                     .to_string()
             }),
         ];

@@ -1,6 +1,7 @@
 //! The numbers of the tracking law and what they promise: gains, ΔC, ΔC1, switching, limits, guarantee.
 
 mod adaptation;
+mod anywhere;
 mod design;
 mod error_envelope;
 mod family;
@@ -14,6 +15,7 @@ mod inertia;
 mod limits;
 mod mix;
 mod proposals;
+mod reference;
 mod region;
 mod rounding;
 mod search;
@@ -37,6 +39,7 @@ pub use gains::Gains;
 pub use guarantee::Guarantee;
 pub use inertia::{Cell, Extremes, Inertia};
 pub use proposals::proposals;
+pub use reference::ReferenceLimits;
 pub use region::room;
 pub use step::{RobustGain, StepGraph};
 
@@ -115,7 +118,12 @@ pub fn design(problem: &DesignProblem, constant: bool) -> Result<Design, Error> 
         true => RobustGain::Constant(stage.constant_gain(&gain, &rates)),
         false => RobustGain::State,
     };
+    let reference = match problem.motion {
+        Some(_) => None,
+        None => ReferenceLimits::of(arm, problem.domain, &envelope.position_error),
+    };
     let design = Design {
+        reference,
         law: control.law,
         gains,
         w: tuning.w,
@@ -174,7 +182,7 @@ impl<'a> Stage<'a> {
         Ok(Self {
             problem,
             constant,
-            feedforward: problem.motion.map(along),
+            feedforward: problem.motion.map(along).or_else(|| anywhere::anywhere(problem)),
             rounding: Rounding::new(problem, &coulomb),
             coulomb,
             adaptation: Adaptation::new(problem)?,

@@ -54,11 +54,19 @@ pub(super) fn outside(domain: &Domain, motion: Option<&Motion>, arm: &Arm, error
     let Domain::Workspace(limits) = domain else { return Vec::new() };
     let turns = |i: usize| turns(arm, limits, i);
     let Some(motion) = motion else {
-        return if (0..arm.dof()).all(turns) {
-            Vec::new()
-        } else {
-            vec!["without a motion nothing says that the joints keep away from their limits".to_string()]
+        // The desired motion keeps away from the edges by the errors: that must leave a place for it.
+        let of = |i: usize| {
+            let room = 0.5 * (limits[i][1] - limits[i][0]);
+            (!turns(i) && (error[i].is_nan() || error[i] >= room)).then(|| {
+                format!(
+                    "the error of joint {} may reach {}, and half of its workspace is {}",
+                    i + 1,
+                    decimal(error[i], 4),
+                    decimal(room, 4)
+                )
+            })
         };
+        return (0..arm.dof()).filter_map(of).collect();
     };
     let path = around(motion, error);
     let of = |i: usize| {
@@ -95,7 +103,7 @@ pub fn room(domain: &Domain, motion: Option<&Motion>, arm: &Arm) -> Vec<f64> {
 }
 
 /// Whether the box lets revolute joint `i` turn a full circle.
-fn turns(arm: &Arm, limits: &[[f64; 2]], i: usize) -> bool {
+pub(super) fn turns(arm: &Arm, limits: &[[f64; 2]], i: usize) -> bool {
     arm.joints[i].kind == JointKind::Revolute
         && arm.joints[i].limits.position.is_none()
         && limits[i][1] - limits[i][0] >= arm.period(i) * (1.0 - 1e-12)

@@ -39,8 +39,10 @@ pub(super) fn controller(module: &Module, model: &Ident) -> Result<TokenStream, 
             }
         },
     };
+    let reference_limits = super::reference_limits::constants(module)?;
     Ok(quote! {
         #guarantee
+        #reference_limits
         /// Period, torque limits and fault policy.
         #constant
         pub const SETTINGS: ::gramforge_runtime::Settings<#scalar, #n> = #settings;

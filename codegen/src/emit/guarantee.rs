@@ -91,11 +91,17 @@ fn docs(design: &Design, statement: &Statement) -> Vec<String> {
         (Kind::Sampled, Some(sampled)) => lines.extend(sampled_docs(sampled)),
         (Kind::Continuous, _) => {
             let most = design.guarantee.initial_error_max.iter().map(|&e| printed_down(e));
+            let [whose, lasts] = match &design.reference {
+                None => ["planned", "lasts"],
+                Some(_) => ["desired", "keeps `REFERENCE_LIMITS`"],
+            };
             lines.extend([
-                " The joints stay inside the domain of the bounds from every initial error specified, as long as the planned"
-                    .to_string(),
-                " motion lasts and no torque limit cuts the command. It is a promise of the continuous law: the lag of a torque"
-                    .to_string(),
+                format!(
+                    " The joints stay inside the domain of the bounds from every initial error specified, as long as the {whose}"
+                ),
+                format!(
+                    " motion {lasts} and no torque limit cuts the command. It is a promise of the continuous law: the lag of a torque"
+                ),
                 " that is held for a period counts to first order.".to_string(),
                 String::new(),
                 format!(

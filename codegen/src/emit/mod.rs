@@ -10,6 +10,7 @@ mod guarantee;
 mod literal;
 mod names;
 mod reference;
+mod reference_limits;
 mod regression;
 mod rounding;
 mod statements;
@@ -26,6 +27,8 @@ pub use type_name::type_name;
 pub(crate) use docs::{
     domain as domain_in_words, met as met_in_words, rates as rates_in_words, torque as torque_in_words,
 };
+#[cfg(feature = "cli")]
+pub(crate) use reference_limits::{ABSOLUTE_VALUES, COMPARISONS};
 
 use std::path::Path;
 
@@ -90,6 +93,8 @@ pub struct Module<'a> {
     pub rounding: Option<&'a StepRounding>,
     /// What it says of itself for programs.
     pub facts: &'a Facts,
+    /// Whether the step reports a desired motion beyond its limits.
+    pub check_reference: bool,
     /// Number type of the code.
     pub scalar: ScalarSpec,
 }

@@ -43,6 +43,7 @@ pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<T
     let read = used(|node| matches!(node, Node::Input(Variable::Theta(_))));
     let learnt_so_far = if read { format_ident!("theta") } else { format_ident!("_theta") };
     let (unused, plain, counts) = (unused(), plain_numbers(), counts(step));
+    let checked = super::reference_limits::checked(module);
     Ok(quote! {
         #counts
 
@@ -51,6 +52,7 @@ pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<T
             type Scalar = #scalar;
             const SETTINGS: ::gramforge_runtime::Settings<#scalar, #n> = SETTINGS;
             const LEARNING: ::gramforge_runtime::step::Learning<#scalar, #p> = #learning;
+            #checked
 
             fn step(
                 q: &[#scalar; #n],

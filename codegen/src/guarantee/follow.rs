@@ -96,9 +96,15 @@ pub(super) fn follow(problem: &Problem, declared: &[f64], settle: Option<f64>) -
         return Err(Open::Long(last));
     }
     let mut claim = Claim::new(problem, declared, settle, n);
-    claim.start(&funnel.set)?;
+    // Where errors are wider than declared, those of the next periods say by how much.
+    let ahead = |open: Open, funnel: &mut Funnel| match open {
+        Open::Wider(most) => Open::Wider(funnel.ahead(most)),
+        open => open,
+    };
+    claim.start(&funnel.set).map_err(|open| ahead(open, &mut funnel))?;
     while (funnel.index as f64) < last {
-        claim.take(&funnel.step().map_err(Open::Lost)?)?;
+        let step = funnel.step().map_err(Open::Lost)?;
+        claim.take(&step).map_err(|open| ahead(open, &mut funnel))?;
     }
     claim.out.end_error = funnel.set.hull()[..n].to_vec();
     if rests {

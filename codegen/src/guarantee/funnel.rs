@@ -11,6 +11,8 @@ use crate::parallel::Parallelize;
 const TOGETHER: usize = 64;
 /// Periods after which generators are boxed.
 const OFTEN: usize = 24;
+/// Periods that are looked ahead.
+const AHEAD: usize = 256;
 /// How much larger than the set a box of displacements is made.
 const ROOM: f64 = 3.0;
 /// How often a box may be made larger for one period.
@@ -96,6 +98,16 @@ impl<'a> Funnel<'a> {
             }
         }
         Err(Lost::Inertia { time: self.time(self.index) })
+    }
+
+    /// The larger of `most` and of the bounds on |q_e|, then |q̇_e|, at the ends of the next periods. Nothing may be claimed of these where
+    /// the torque error grows with them.
+    pub(super) fn ahead(&mut self, mut most: Vec<f64>) -> Vec<f64> {
+        for _ in 0..AHEAD {
+            let Ok(step) = self.step() else { break };
+            most.iter_mut().zip(step.hull).for_each(|(most, x)| *most = most.max(x));
+        }
+        most
     }
 
     /// Takes `set` where no joint may have left the tube on the way; otherwise all stays as it was.

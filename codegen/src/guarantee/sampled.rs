@@ -12,7 +12,7 @@ use crate::number::{decimal, short};
 use crate::numerics::linalg::weighed;
 
 /// How much larger than the errors seen the next ones are declared.
-const WIDER: f64 = 1.6;
+const WIDER: f64 = 1.3;
 /// Most declarations.
 const ROUNDS: usize = 14;
 

@@ -26,6 +26,7 @@ use serde_json::Value;
 use crate::error::{Diagnostics, Error};
 use crate::spec::Spec;
 
+#[cfg(feature = "cli")]
 pub(crate) use defaults::module_name;
 pub(crate) use hash::canonical;
 pub use hash::spec_hash;

@@ -44,6 +44,7 @@ impl Loaded {
     }
 }
 
+#[cfg(feature = "cli")]
 impl Named {
     /// The file at `path` by itself, as a message names it.
     pub(crate) fn alone(field: &'static str, path: &Path) -> Self {

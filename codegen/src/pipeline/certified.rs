@@ -1,6 +1,6 @@
 //! Stage 5: what the model leaves out, proved.
 
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use serde::{Deserialize, Serialize};
 
@@ -19,8 +19,16 @@ use crate::progress::Stage;
 use crate::reduction::Regression;
 use crate::torque::Regressor;
 
-/// A torque error by joint, N·m or N, and the rates for which it holds.
-pub(super) type Known = (Rates, Vec<f64>);
+/// A torque error that was computed.
+#[derive(Clone, Debug)]
+struct Known {
+    /// Whether it is that of the arm as specified alone, not of its family.
+    alone: bool,
+    /// The rates for which it holds.
+    rates: Rates,
+    /// By joint, N·m or N.
+    error: Vec<f64>,
+}
 
 /// A model with bounds on its errors.
 ///
@@ -33,8 +41,8 @@ pub(super) struct Certified {
     pub setting: Setting,
     /// The model and what is proved of it.
     pub proved: Proved,
-    /// Torque errors of the model of the arm as specified, by the rates that were asked for: each takes seconds.
-    pub known: Arc<Mutex<Vec<Known>>>,
+    /// Torque errors by the rates that were asked for: each takes seconds.
+    known: Arc<Mutex<Vec<Known>>>,
 }
 
 /// A model and what is proved of it: what took the time, and what gains do not change.
@@ -119,6 +127,28 @@ impl Certified {
     /// Whether the specification leaves the choice of the model open and a reduced one was chosen.
     pub fn is_chosen_reduced(&self) -> bool {
         self.checked.loaded.spec.model.tolerance().is_some() && !self.proved.model.reduced.is_exact()
+    }
+
+    /// Bound on the torque error by joint for rates up to `rates`, N·m or N: of the family, or with `alone` of another model and bounds,
+    /// those of the arm as specified. What f32 code rounds by is not part of it.
+    pub fn torque_error(&self, rates: &Rates, alone: Option<(&Lagrangian, &Bounds)>) -> Vec<f64> {
+        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let same = |known: &&Known| known.alone == alone.is_some() && known.rates == *rates;
+        if let Some(found) = known().iter().find(same) {
+            return found.error.clone();
+        }
+        let Proved { certificates, bounds, torque, .. } = &self.proved;
+        // Not from what is known by now: the same bound whatever was asked for before.
+        let pays =
+            torque.as_ref().is_none_or(|torque| self.error().search_pays(certificates, bounds, torque));
+        let error = match alone {
+            Some((lagrangian, bounds)) => {
+                ModelError { lagrangian, ..self.error() }.torque_error(certificates, bounds, rates, pays)
+            }
+            None => self.error().torque_error(certificates, bounds, rates, pays),
+        };
+        known().push(Known { alone: alone.is_some(), rates: rates.clone(), error: error.clone() });
+        error
     }
 
     /// What bounds follow from.

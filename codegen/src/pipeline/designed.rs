@@ -6,12 +6,10 @@ use super::judged::{has_long_period, required, stable, statement_of};
 use super::replaced::{Replaced, Saving};
 use super::requested::{follows, judges, requested};
 use super::step_rounding::rounded_design;
-use crate::bounds::Effort;
 use crate::check::{Checked, Control, GainSource, Tuning};
 use crate::control::{Design, DesignProblem, SingleRounding, StepGraph, StepModel, StepRounding, design};
 use crate::error::{Diagnostics, Error};
 use crate::guarantee::{Kind, Statement};
-use crate::progress::Silent;
 use crate::spec::RobustGainSpec;
 
 /// A certified model with the controller that the specification asks for.
@@ -127,12 +125,18 @@ impl Designed {
     ///
     /// # Errors
     /// [`Error::Input`] where there is no controller, or where it is refused so.
+    #[cfg(any(feature = "simulate", test))]
     pub fn with_other_gain(&self, constant: bool) -> Result<Design, Error> {
         let checked = &self.certified.checked;
         let (Some(control), Some(design)) = (&checked.control, &self.design) else {
             return Err(Error::input(&checked.loaded.path, "control", "is missing", "add `control`"));
         };
-        let means = Means { effort: &Effort::default(), progress: &Silent, cache: None, judges: true };
+        let means = Means {
+            effort: &crate::bounds::Effort::default(),
+            progress: &crate::progress::Silent,
+            cache: None,
+            judges: true,
+        };
         rounded_design(&self.certified, &given(control, design), means, constant).map(|(design, ..)| design)
     }
 
@@ -238,8 +242,7 @@ pub(super) fn with_problem<T>(
     f: impl FnOnce(&DesignProblem) -> T,
 ) -> T {
     let (checked, proved) = (&certified.checked, &certified.proved);
-    let error = certified.error();
-    let rounding = error.rounding();
+    let rounding = certified.error().rounding();
     f(&DesignProblem {
         file: &checked.loaded.path,
         control,
@@ -255,7 +258,7 @@ pub(super) fn with_problem<T>(
         uncertainty: &checked.built.uncertainty,
         regression: proved.regression.as_ref(),
         seek_tube: means.effort.seek_tube,
-        torque_error: &|rates| error.torque_error(&proved.certificates, &proved.bounds, rates),
+        torque_error: &|rates| certified.torque_error(rates, None),
         progress: means.progress,
     })
 }

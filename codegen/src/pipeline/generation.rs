@@ -104,8 +104,7 @@ impl Generation {
         let _stage = Stage::new(means.progress, "torque error of the law", 1);
         let certified = &designed.certified;
         let rates = designed.design.as_ref().and_then(|design| design.rates.as_ref());
-        let (error, proved) = (certified.error(), &certified.proved);
-        let met = rates.map(|rates| error.met(&proved.certificates, &proved.bounds, rates));
+        let met = rates.map(|rates| certified.error().met(certified.torque_error(rates, None), rates));
         Self { designed, met }
     }
 
@@ -148,6 +147,7 @@ impl Generation {
             step: self.step().filter(|_| self.spec().emit.law == LawCodeSpec::Inline),
             rounding: self.rounding(),
             facts: &self.facts(),
+            check_reference: self.spec().emit.check_reference,
             scalar: self.spec().emit.scalar,
         })
     }
@@ -171,6 +171,7 @@ impl Generation {
     ///
     /// # Errors
     /// [`Error::Input`] where there is no controller, or where it is refused with that robust gain.
+    #[cfg(any(feature = "simulate", test))]
     pub(crate) fn design_with(&self, constant: bool) -> Result<Design, Error> {
         self.designed.with_other_gain(constant)
     }

@@ -1,7 +1,5 @@
 //! What is proved of the sampled loop of a controller.
 
-use std::sync::PoisonError;
-
 use super::Means;
 use super::certified::Certified;
 use super::designed::with_problem;
@@ -140,7 +138,6 @@ impl<'a> Judge<'a> {
             return Err(vec![reason.to_string()]);
         }
         let Some(tube) = self.tube() else { return Err(Vec::new()) };
-        let error = ModelError { lagrangian: &self.own, ..self.certified.error() };
         let built = &checked.built;
         SampledLoop {
             arm: &built.given,
@@ -151,7 +148,7 @@ impl<'a> Judge<'a> {
             bounds: &self.certified.proved.bounds,
             initial: [&initial.position, &initial.velocity],
             settle: control.settle,
-            wrong: &|errors| self.wrong(&error, design, errors),
+            wrong: &|errors| self.wrong(design, errors),
         }
         .judge()
     }
@@ -165,16 +162,10 @@ impl<'a> Judge<'a> {
     }
 
     /// What the emitted step is wrong by against the arm as specified.
-    fn wrong(&self, error: &ModelError, design: &Design, errors: &LoopErrors) -> Wrong {
-        let Self { certified, rounding: found, bounds, .. } = self;
-        let (checked, proved) = (&certified.checked, &certified.proved);
-        let known = || certified.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let before = known().iter().find(|(rates, _)| *rates == errors.rates).map(|(_, error)| error.clone());
-        let model = before.unwrap_or_else(|| {
-            let model = error.torque_error(&proved.certificates, bounds, &errors.rates);
-            known().push((errors.rates.clone(), model.clone()));
-            model
-        });
+    fn wrong(&self, design: &Design, errors: &LoopErrors) -> Wrong {
+        let Self { certified, rounding: found, own, bounds, .. } = self;
+        let checked = &certified.checked;
+        let model = certified.torque_error(&errors.rates, Some((own, bounds)));
         let n = model.len();
         let single = (checked.loaded.spec.emit.scalar == ScalarSpec::F32).then(|| SingleRounding {
             step: found.torque.clone(),

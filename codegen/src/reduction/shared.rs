@@ -57,7 +57,7 @@ fn selection<'a>(
     selection
 }
 
-/// A function with the part of the model that it carries.
+/// A function of the exact model with the part of the model that it carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ranked {
     /// Index into [`Lagrangian::functions`].
@@ -77,7 +77,7 @@ pub fn ranked(lagrangian: &Lagrangian, measure: &Measure, functions: usize) -> V
     let selection = selection(lagrangian, &samples, &weights, functions);
     let share = |pick: &Pick| Ranked {
         function: pick.function,
-        share: sum(&mut pick.projections.iter().map(|p| p * p)) / whole,
+        share: if whole > 0.0 { sum(&mut pick.projections.iter().map(|p| p * p)) / whole } else { 0.0 },
     };
     selection.picks().iter().map(share).collect()
 }

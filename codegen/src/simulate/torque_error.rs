@@ -102,8 +102,7 @@ fn bilinear(m: &[Vec<f64>]) -> f64 {
                 .map(|k| (0..n).map(|j| if rows[j] < 0.0 { -m[j][k] } else { m[j][k] }).sum())
                 .collect();
             let value: f64 = columns.iter().map(|c| c.abs()).sum();
-            // Not a comparison with ≤: a NaN ends it as well.
-            if !(value > last) {
+            if value.is_nan() || value <= last {
                 break;
             }
             last = value;

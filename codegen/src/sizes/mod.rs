@@ -1,6 +1,7 @@
 //! One specification at several model sizes: what each costs, and what it is wrong by.
 
 mod defaults;
+mod gains;
 mod kept;
 mod label;
 mod plan;
@@ -10,6 +11,7 @@ mod size;
 mod sweep;
 
 pub use defaults::default_sizes;
+pub use gains::{with_gains, with_gains_of};
 pub use kept::{Kept, merged};
 pub use plan::{Entry, Plan, Shard};
 pub use row::{Counts, Gain, Promise, Row};

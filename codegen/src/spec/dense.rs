@@ -13,6 +13,17 @@ impl VectorSpec {
 }
 
 impl MatrixSpec {
+    /// A square matrix as one would write it: its diagonal, where that is all.
+    pub fn of(rows: &[Vec<f64>]) -> Self {
+        let n = rows.len();
+        let diagonal = (0..n).all(|i| (0..n).all(|j| i == j || rows[i][j] == 0.0));
+        if diagonal {
+            MatrixSpec::Diagonal((0..n).map(|i| rows[i][i]).collect())
+        } else {
+            MatrixSpec::Full(rows.to_vec())
+        }
+    }
+
     /// The n×n matrix by rows: a scalar is a multiple of the identity, a list a diagonal; `None` where the size differs.
     pub fn by_rows(&self, n: usize) -> Option<Vec<Vec<f64>>> {
         let diagonal = |entry: &dyn Fn(usize) -> f64| {

@@ -21,6 +21,10 @@ pub struct EmitSpec {
     /// Write a C header and a crate that gives a C library beside the module.
     #[serde(default, skip_serializing_if = "is_false")]
     pub c_api: bool,
+    /// Report a fault where the desired motion given to the step is beyond the limits for which the controller was judged; without
+    /// `motion`.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub check_reference: bool,
     /// Multiply and add in one operation that rounds once, where a sum is of a product; for processors that have the instruction, with
     /// the feature `std` of `gramforge-runtime`. The module does not compile elsewhere.
     #[serde(default, skip_serializing_if = "is_false")]

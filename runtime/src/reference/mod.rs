@@ -3,11 +3,13 @@
 //! Every reference is a plain struct of public fields that a `const` or `static` can hold. Beside each stands the
 //! scalar function that evaluates one joint, for those who do not know their number of joints at compile time.
 
+mod limits;
 mod quintic;
 mod sinusoids;
 mod spline;
 mod ticks;
 
+pub use limits::ReferenceLimits;
 pub use quintic::{QuinticReference, quintic, quintic_shape};
 pub use sinusoids::{Sinusoid, SinusoidReference, sinusoids};
 pub use spline::{SplineReference, SplineSegment, cubic};

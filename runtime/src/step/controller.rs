@@ -3,7 +3,7 @@
 use super::ControlStep;
 use crate::reference::Desired;
 use crate::vector::first_not_finite;
-use crate::{Command, Estimate, Fault, OnFault, Quantity, Real, TorqueController};
+use crate::{Command, Estimate, Fault, OnFault, Quantity, Real, Reason, TorqueController};
 
 /// A [`ControlStep`] with the little that must be remembered from one step to the next.
 ///
@@ -47,9 +47,9 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
     /// rad/s or m/s, and the desired motion.
     ///
     /// # Errors
-    /// When a measured or desired number or the computed torque is infinite or NaN. The [`Fault`] carries the safe
-    /// command that must be applied instead; the controller goes on with the next good measurement. How many faults in
-    /// a row are too many is for the caller to say.
+    /// When a measured or desired number or the computed torque is infinite or NaN, or when the desired motion is beyond
+    /// [`ControlStep::REFERENCE`]. The [`Fault`] carries the safe command that must be applied instead; the controller goes on
+    /// with the next good measurement. How many faults in a row are too many is for the caller to say.
     // A firmware has one such call. Inside its loop nothing is copied, and what the loop does not read is not computed.
     #[inline(always)]
     pub fn step(
@@ -69,6 +69,11 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
         }
         if sum != zero {
             return Err(self.fault_of(q, qd, desired, &torque.asked));
+        }
+        if let Some(limits) = &S::REFERENCE
+            && let Some((quantity, joint)) = limits.beyond(desired)
+        {
+            return Err(self.fault(q, quantity, Reason::BeyondLimits, joint));
         }
         self.estimate.correct(&torque.correction, &S::LEARNING.low, &S::LEARNING.high);
         self.last_command = torque.limited;
@@ -121,15 +126,21 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
     ) -> Fault<S::Scalar, N> {
         let torque = (Quantity::Torque, first_not_finite(asked).unwrap_or(0));
         let (quantity, joint) = not_finite(q, qd, desired).unwrap_or(torque);
-        self.fault(q, quantity, joint)
+        self.fault(q, quantity, Reason::NotFinite, joint)
     }
 
     #[cold]
-    fn fault(&mut self, q: &[S::Scalar; N], quantity: Quantity, joint: usize) -> Fault<S::Scalar, N> {
+    fn fault(
+        &mut self,
+        q: &[S::Scalar; N],
+        quantity: Quantity,
+        reason: Reason,
+        joint: usize,
+    ) -> Fault<S::Scalar, N> {
         if quantity != Quantity::Position {
             (self.last_position, self.positioned) = (*q, true);
         }
-        Fault { quantity, joint, command: self.safe_command() }
+        Fault { quantity, reason, joint, command: self.safe_command() }
     }
 }
 

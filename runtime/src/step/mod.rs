@@ -8,7 +8,7 @@ pub use controller::StepController;
 #[cfg(feature = "std")]
 pub use fused::{MulAdd, mul_add};
 
-use crate::reference::Desired;
+use crate::reference::{Desired, ReferenceLimits};
 use crate::{Real, Settings};
 
 /// One control step of one arm, written out: the torque of a tracking law about a model, with every constant folded.
@@ -26,6 +26,9 @@ pub trait ControlStep<const N: usize, const P: usize = 0> {
 
     /// The box of the parameters, and where they start.
     const LEARNING: Learning<Self::Scalar, P>;
+
+    /// What the desired motion must keep, where the step is to report a fault beyond it; `None` to take any motion.
+    const REFERENCE: Option<ReferenceLimits<Self::Scalar, N>> = None;
 
     /// The torque for the measured position `q`, rad or m, velocity `qd`, rad/s or m/s, the desired motion, and the
     /// parameters `theta` that were learnt so far.

@@ -1,7 +1,7 @@
 //! The loop about a step that is written out, for a step of two joints whose numbers can be followed by hand.
 
 use super::*;
-use crate::{Fault, OnFault, Quantity};
+use crate::{Fault, OnFault, Quantity, Reason};
 
 /// τ_1 = 2 q_1 + θ, τ_2 = q̈_d,2; the other inputs reach no torque. θ falls by s = q̇_1.
 struct Simple;
@@ -67,7 +67,7 @@ fn a_fault_is_found_wherever_it_enters_and_the_gravity_torque_is_held() {
             // The last finite position: that of the instant, where it is not the position that is bad.
             let command = if quantity == Quantity::Position { [1.0, 3.0] } else { [2.0, 4.0] };
             let fault = controller.step(&q, &qd, &desired).unwrap_err();
-            assert_eq!(fault, Fault { quantity, joint, command });
+            assert_eq!(fault, Fault { quantity, reason: Reason::NotFinite, joint, command });
             assert_eq!(controller.learnt(), &[0.5], "nothing is learnt from a bad instant");
         }
     }
@@ -76,6 +76,66 @@ fn a_fault_is_found_wherever_it_enters_and_the_gravity_torque_is_held() {
     let fault = controller.step(&far, &[0.0; 2], &STILL).unwrap_err();
     // The torque and the gravity torque overflow.
     assert_eq!((fault.quantity, fault.joint, fault.command), (Quantity::Torque, 0, [0.0; 2]));
+}
+
+/// The same step, for motions inside these limits alone.
+struct Checked;
+
+impl ControlStep<2, 1> for Checked {
+    type Scalar = f64;
+    const SETTINGS: Settings<f64, 2> = Simple::SETTINGS;
+    const LEARNING: Learning<f64, 1> = Simple::LEARNING;
+    const REFERENCE: Option<ReferenceLimits<f64, 2>> = Some(ReferenceLimits {
+        lowest: [-1.0, 0.5],
+        highest: [1.0, 2.0],
+        velocity: [3.0, 4.0],
+        acceleration: [5.0, 6.0],
+    });
+
+    fn step(
+        q: &[f64; 2],
+        qd: &[f64; 2],
+        desired: &Desired<f64, 2>,
+        theta: &[f64; 1],
+    ) -> StepTorque<f64, 2, 1> {
+        Simple::step(q, qd, desired, theta)
+    }
+
+    fn gravity_torque(q: &[f64; 2]) -> [f64; 2] {
+        Simple::gravity_torque(q)
+    }
+}
+
+#[test]
+fn a_desired_motion_beyond_its_limits_is_a_fault() {
+    let mut controller = StepController::<Checked, 2, 1>::new();
+    let edges = [(0, [-1.0, 1.0], [0.5, 2.0]), (1, [-3.0, 3.0], [-4.0, 4.0]), (2, [-5.0, 5.0], [-6.0, 6.0])];
+    for (place, first, second) in edges {
+        let quantity =
+            [Quantity::DesiredPosition, Quantity::DesiredVelocity, Quantity::DesiredAcceleration][place];
+        for (joint, ends) in [first, second].into_iter().enumerate() {
+            for (end, away) in ends.into_iter().zip([-1.0, 1.0]) {
+                let mut desired = Desired { q: [0.0, 1.0], qd: [0.0; 2], qdd: [0.0; 2] };
+                let put = |desired: &mut Desired<f64, 2>, x: f64| {
+                    [&mut desired.q, &mut desired.qd, &mut desired.qdd][place][joint] = x;
+                };
+                put(&mut desired, end);
+                assert!(controller.step(&[0.01, 3.0], &[0.0; 2], &desired).is_ok(), "the edge is inside");
+                let learnt = *controller.learnt();
+                put(&mut desired, end + 1e-9 * away);
+                let fault = controller.step(&[0.02, 4.0], &[7.0, 0.0], &desired).unwrap_err();
+                let reason = Reason::BeyondLimits;
+                assert_eq!(fault, Fault { quantity, reason, joint, command: [2.0, 4.0] });
+                assert_eq!(*controller.learnt(), learnt, "nothing is learnt from it");
+                put(&mut desired, f64::NAN);
+                let fault = controller.step(&[0.02, 4.0], &[0.0; 2], &desired).unwrap_err();
+                assert_eq!((fault.quantity, fault.reason), (quantity, Reason::NotFinite));
+            }
+        }
+    }
+    let far = Desired { q: [0.0, 1.0], qd: [0.0, -4.5], qdd: [9.0, 0.0] };
+    let fault = controller.step(&[0.0; 2], &[0.0; 2], &far).unwrap_err();
+    assert_eq!(std::format!("{fault}"), "desired velocity[1] is beyond its limits");
 }
 
 #[test]

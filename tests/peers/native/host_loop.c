@@ -31,7 +31,7 @@ static int64_t now(void)
     return time.tv_sec * SECOND + time.tv_nsec;
 }
 
-/* Sleeps until an instant. A deadline that has passed returns at once, so no period is added for good. */
+/* Sleeps until an instant; does not sleep if it has passed, so that the loop catches up after a late step. */
 static void sleep_until(int64_t deadline)
 {
     const struct timespec time = {(time_t)(deadline / SECOND), (long)(deadline % SECOND)};

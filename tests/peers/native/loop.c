@@ -36,10 +36,9 @@ int step(const double *q, const double *qd, double time, double *torque, uint32_
     struct OF(_command) command;
     int fault = (int)OF(_reference)(time, &desired);
     int joint;
-    if (fault == 0)
-        fault = (int)OF(_step)(&controller, q, qd, &desired, &command);
-    else
+    if (fault != 0)
         return fault;
+    fault = (int)OF(_step)(&controller, q, qd, &desired, &command);
     for (joint = 0; joint < joints; joint++)
         torque[joint] = command.torque[joint];
     *saturated = command.saturated;

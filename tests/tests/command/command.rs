@@ -3,6 +3,7 @@
 mod diff;
 mod evaluate;
 mod generate;
+mod guides;
 mod init;
 mod manners;
 mod progress;

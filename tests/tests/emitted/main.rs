@@ -15,6 +15,7 @@ macro_rules! included {
 }
 
 mod adaptive;
+mod checked;
 mod counts;
 mod double;
 mod fused;

@@ -41,7 +41,12 @@ impl<S: ControlStep<N, P, Scalar = f32>, const N: usize, const P: usize> TorqueC
         let desired = Desired { q: single(&desired.q), qd: single(&desired.qd), qdd: single(&desired.qdd) };
         let wide = |x: [f32; N]| x.map(f64::from);
         let Command { torque, saturated } = self.0.step(&single(q), &single(qd), &desired).map_err(
-            |Fault { quantity, joint, command }| Fault { quantity, joint, command: wide(command) },
+            |Fault { quantity, reason, joint, command }| Fault {
+                quantity,
+                reason,
+                joint,
+                command: wide(command),
+            },
         )?;
         Ok(Command { torque: wide(torque), saturated })
     }

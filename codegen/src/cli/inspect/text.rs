@@ -1,6 +1,6 @@
 //! Puts it into words.
 
-use super::{ControlView, GuaranteeView, Inspection, PromiseView};
+use super::{ControlView, GuaranteeView, Inspection, PromiseView, ReferenceView};
 use crate::bounds::{printed_above, printed_below, printed_down, printed_up};
 use crate::emit::{domain_in_words, met_in_words, rates_in_words, torque_in_words};
 use crate::number::short;
@@ -68,6 +68,9 @@ pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
     if let Some(promised) = &view.guarantee {
         lines.extend(guarantee(promised));
     }
+    if let Some(limits) = &view.reference {
+        lines.extend(reference(limits));
+    }
     lines.join("\n") + "\n"
 }
 
@@ -116,6 +119,28 @@ fn continuous(promised: &GuaranteeView) -> Vec<String> {
     ];
     lines.extend(promised.reasons.iter().map(|reason| format!("  {reason}")));
     lines
+}
+
+fn reference(limits: &ReferenceView) -> Vec<String> {
+    // Inwards, so that what is shown is inside.
+    let range = |[low, high]: &[f64; 2]| format!("[{}, {}]", printed_above(*low), printed_below(*high));
+    let down = |x: &[f64]| x.iter().map(|&x| printed_down(x)).collect::<Vec<_>>().join(", ");
+    let checked = match limits.checked {
+        true => format!(
+            "the step reports a fault beyond these: {} comparisons and {} absolute values beside its operations",
+            limits.comparisons, limits.absolute_values
+        ),
+        false => {
+            "the step does not look at these: `emit.check_reference` makes it report a fault".to_string()
+        }
+    };
+    vec![
+        "a desired motion must keep:".to_string(),
+        format!("  position in ({})", limits.position.iter().map(range).collect::<Vec<_>>().join(", ")),
+        format!("  speed at most ({})", down(limits.velocity)),
+        format!("  acceleration at most ({})", down(limits.acceleration)),
+        format!("  {checked}"),
+    ]
 }
 
 fn guarantee(promised: &PromiseView) -> Vec<String> {

@@ -2,12 +2,12 @@
 
 use super::{
     AdaptationView, BoundsView, ControlView, Costs, DomainView, EstimateView, GuaranteeView, Inspection,
-    PromiseView, RangeView, RatesView, StepCosts,
+    PromiseView, RangeView, RatesView, ReferenceView, StepCosts,
 };
 use crate::bounds::{Bounds, Effort, Rates, estimate, factor_bounds, six_digits_up, worst_ratio};
 use crate::control::{Envelope, RobustGain, StepGraph};
 use crate::domain::Domain;
-use crate::emit::functions;
+use crate::emit::{ABSOLUTE_VALUES, COMPARISONS, functions};
 use crate::guarantee::Sampled;
 use crate::pipeline::{Generation, Limits};
 use crate::reduction::Dictionary;
@@ -22,9 +22,9 @@ pub(super) fn view(generation: &Generation, size: usize, limits: Option<Limits>)
     let control = design.as_ref().map(|design| {
         let Envelope { v_max, level, position_error, velocity_error, speed } = &design.envelope;
         ControlView {
-            W: as_written(&design.w),
-            Pqq: as_written(&design.gains.pqq),
-            Omega: as_written(&design.omega),
+            W: MatrixSpec::of(&design.w),
+            Pqq: MatrixSpec::of(&design.gains.pqq),
+            Omega: MatrixSpec::of(&design.omega),
             boundary_layer: design.boundary_layer.as_deref(),
             robust_gain: match &design.robust_gain {
                 RobustGain::Constant(gain) => Some(gain),
@@ -85,9 +85,24 @@ pub(super) fn view(generation: &Generation, size: usize, limits: Option<Limits>)
         size,
         control,
         guarantee: promise(generation, limits),
+        reference: reference(generation),
         continuous,
         warnings: generation.warnings(),
     }
+}
+
+fn reference(generation: &Generation) -> Option<ReferenceView<'_>> {
+    let limits = generation.design()?.reference.as_ref()?;
+    let checked = generation.spec().emit.check_reference;
+    let count = |each: usize| if checked { each * limits.velocity.len() } else { 0 };
+    Some(ReferenceView {
+        position: &limits.position,
+        velocity: &limits.velocity,
+        acceleration: &limits.acceleration,
+        checked,
+        comparisons: count(COMPARISONS),
+        absolute_values: count(ABSOLUTE_VALUES),
+    })
 }
 
 fn promise(generation: &Generation, limits: Option<Limits>) -> Option<PromiseView<'_>> {
@@ -187,15 +202,4 @@ fn domain_view(domain: &Domain) -> DomainView {
         Domain::Workspace(limits) => ("workspace", None, Some(limits.clone())),
     };
     DomainView { kind, position_error, position }
-}
-
-/// A gain as one would write it: its diagonal, where that is all.
-fn as_written(gain: &[Vec<f64>]) -> MatrixSpec {
-    let n = gain.len();
-    let diagonal = (0..n).all(|i| (0..n).all(|j| i == j || gain[i][j] == 0.0));
-    if diagonal {
-        MatrixSpec::Diagonal((0..n).map(|i| gain[i][i]).collect())
-    } else {
-        MatrixSpec::Full(gain.to_vec())
-    }
 }

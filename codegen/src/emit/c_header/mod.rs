@@ -3,6 +3,7 @@
 //! The texts stand in files of their own beside this one, with `{{word}}` for what depends on the module.
 
 mod header;
+mod limits;
 mod shim;
 
 use super::Module;
@@ -36,6 +37,8 @@ struct Interface<'a> {
     period: f64,
     /// Time that the desired motion takes, s; `None` where there is no motion.
     duration: Option<f64>,
+    /// Whether the step reports a desired motion beyond its limits.
+    checked: bool,
 }
 
 /// The number type, in Rust and in C.
@@ -99,7 +102,8 @@ impl Interface<'_> {
         let upper = self.name.to_uppercase();
         let (words, size) = (self.words(), self.scalar.size);
         let instant = Instant::of(self.scalar);
-        [
+        let limits = limits::words(self.checked).map(|(word, value)| (word, value.to_string()));
+        let own = [
             ("reference", instant.reference.to_string()),
             ("instant_words", instant.words.replace("{{name}}", self.name)),
             ("instant", instant.name.to_string()),
@@ -120,9 +124,10 @@ impl Interface<'_> {
             ("c_scalar", self.scalar.c.to_string()),
             ("period", self.number(self.period)),
             ("duration", self.number(self.duration.unwrap_or(0.0))),
-        ]
-        .into_iter()
-        .fold(text.to_string(), |text, (word, value)| text.replace(&format!("{{{{{word}}}}}"), &value))
+        ];
+        // Those that hold other words first.
+        let all = limits.into_iter().chain(own);
+        all.fold(text.to_string(), |text, (word, value)| text.replace(&format!("{{{{{word}}}}}"), &value))
     }
 
     /// `x` in C, with the bits that it has in the module.
@@ -150,6 +155,7 @@ pub fn c_interface(module: &Module) -> Result<Vec<CFile>, Error> {
         parameters: step.parameters,
         period: design.period,
         duration: module.motion.map(crate::motion::Motion::duration),
+        checked: module.check_reference,
     };
     let file = |path: String, text: String| CFile { path, text };
     let name = module.name;

@@ -15,7 +15,16 @@ fn the_header_has_the_numbers_of_the_module() {
 
 fn interface(duration: Option<f64>, parameters: usize) -> Interface<'static> {
     let scalar = Scalar::of(ScalarSpec::F64);
-    Interface { name: "a_1", hash: "0a1f", scalar, joints: 3, parameters, period: 1e-7, duration }
+    Interface {
+        name: "a_1",
+        hash: "0a1f",
+        scalar,
+        joints: 3,
+        parameters,
+        period: 1e-7,
+        duration,
+        checked: false,
+    }
 }
 
 fn texts(interface: &Interface) -> [String; 3] {
@@ -24,7 +33,8 @@ fn texts(interface: &Interface) -> [String; 3] {
 
 #[test]
 fn every_word_is_filled_in() {
-    for interface in [interface(None, 0), interface(Some(2.5), 4)] {
+    let checked = Interface { checked: true, ..interface(None, 0) };
+    for interface in [interface(None, 0), interface(Some(2.5), 4), checked] {
         for text in texts(&interface) {
             assert!(!text.contains("{{") && !text.contains("}}"), "{text}");
             assert!(text.ends_with('\n') && text.is_ascii(), "{text}");
@@ -41,6 +51,20 @@ fn what_there_is_not_has_no_function() {
     assert!(names.iter().all(|name| header.contains(name)));
     assert!(names[..3].iter().all(|name| shim.contains(name)));
     assert!(header.contains("#define A_1_PERIOD 1e-7\n") && header.contains("#define A_1_DURATION 2.5\n"));
+}
+
+#[test]
+fn a_step_that_looks_at_the_desired_motion_has_faults_for_it() {
+    let faults = ["POSITION_LIMIT = 9", "VELOCITY_LIMIT = 10", "ACCELERATION_LIMIT = 11"];
+    let [plain, _, shim] = texts(&interface(None, 0));
+    assert!(faults.iter().all(|fault| !plain.contains(fault)) && !shim.contains("Limit"));
+    let [header, _, shim] = texts(&Interface { checked: true, ..interface(None, 0) });
+    assert!(faults.iter().all(|fault| header.contains(&format!("A_1_FAULT_{fault},"))), "{header}");
+    assert!(
+        ["PositionLimit = 9,", "VelocityLimit = 10,", "AccelerationLimit = 11,"]
+            .iter()
+            .all(|x| shim.contains(x))
+    );
 }
 
 #[test]

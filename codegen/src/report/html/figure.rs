@@ -4,8 +4,8 @@ use serde::{Serialize, Serializer};
 
 use crate::bounds::six_digits_up;
 
-/// Digits of a curve's numbers: more than a picture can show.
-const DIGITS: usize = 5;
+/// Digits of a curve's numbers: those to which bounds are rounded up.
+const DIGITS: usize = 6;
 
 /// One figure for one size of the model.
 #[derive(Clone, Debug, Serialize)]

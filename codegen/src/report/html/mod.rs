@@ -1,6 +1,6 @@
 //! The report on one specification: a page of its own, with a figure for each question and a slider over model sizes.
 //!
-//! Words and numbers come from here. The page's script, `page.js`, only draws: it holds no knowledge of robots. The page
+//! Words and numbers come from here. The page's script, in `script/`, only draws: it holds no knowledge of robots. The page
 //! loads nothing.
 
 mod arm;
@@ -30,21 +30,19 @@ use crate::sizes::Size;
 use crate::spec::ModelSpec;
 
 /// The report on the size of a specification, `own`, and on other sizes of it. The slider goes from the size with the largest
-/// certified error to the exact one.
+/// certified error to the exact one. Gives the page and the number of sizes on it: those that come out the same count once.
 ///
 /// # Errors
 /// [`Error::Internal`] where numbers cannot be written as JSON.
-pub fn html_report(mut own: Study, mut others: Vec<Study>) -> Result<String, Error> {
+pub fn html_report(mut own: Study, mut others: Vec<Study>) -> Result<(String, usize), Error> {
     let name = own.generation.spec().name.clone();
     let specified = Size::of(own.generation.spec().model.clone()).label();
     own.label = format!("{specified} (specified)");
     let label = own.label.clone();
-    // A tolerance within which nothing is cheaper than the exact model is the exact model.
-    let twin = |study: &Study| study.row.exact && study.generation.spec().model != ModelSpec::Exact;
-    let before = others.len();
-    others.retain(|study| !twin(study));
-    let twins = before - others.len();
     others.push(own);
+    let before = others.len();
+    let mut others = distinct(others, &label);
+    let twins = before - others.len();
     let error = |study: &Study| study.row.worst_fraction().unwrap_or(0.0);
     let total = |study: &Study| study.row.operations.total;
     // Where errors are equal, as those of all sizes that have become the exact one, the cheaper one comes last.
@@ -52,7 +50,31 @@ pub fn html_report(mut own: Study, mut others: Vec<Study>) -> Result<String, Err
     let shown = others.iter().position(|study| study.label == label).unwrap_or(0);
     let overview = (others.len() > 1).then(|| sizes::figure(&others, twins));
     let figures: Vec<Vec<Option<Figure>>> = others.iter().map(|study| all(study, &overview)).collect();
-    page::Page { name: &name, studies: &others, own: shown, figures: &figures }.html()
+    let page = page::Page { name: &name, studies: &others, own: shown, figures: &figures }.html()?;
+    Ok((page, others.len()))
+}
+
+/// The studies without those that come out as another one: the exact model for a tolerance within which nothing is cheaper, the
+/// same functions where more are not independent. The one that is called `own` stays.
+fn distinct(studies: Vec<Study>, own: &str) -> Vec<Study> {
+    let same = |a: &Study, b: &Study| {
+        let (a, b) = (&a.row, &b.row);
+        (a.operations, &a.torque_error, a.gain) == (b.operations, &b.torque_error, b.gain)
+    };
+    // Of equal ones the specification's own stays, then the exact one, then the one with the fewest functions.
+    let place = |study: &Study| {
+        let exact = study.generation.spec().model == ModelSpec::Exact;
+        (study.label != own, !exact, study.functions().unwrap_or(usize::MAX))
+    };
+    let mut sorted = studies;
+    sorted.sort_by_key(|study| place(study));
+    let mut out: Vec<Study> = Vec::with_capacity(sorted.len());
+    for study in sorted {
+        if !out.iter().any(|kept| same(kept, &study)) {
+            out.push(study);
+        }
+    }
+    out
 }
 
 /// The figures of one size, in the order of [`page::SECTIONS`].

@@ -15,6 +15,9 @@ fn instants(motion: &Motion) -> Vec<f64> {
     (0..=INSTANTS).map(|k| motion.duration() * f64::from(k) / f64::from(INSTANTS)).collect()
 }
 
+/// A derivative of the motion: name, unit, values.
+type Order = (&'static str, &'static str, fn(&Target) -> &Vec<f64>);
+
 /// Position, speed and acceleration of all joints.
 pub(super) fn motion_figure(study: &Study) -> Option<Figure> {
     let motion = study.generation.motion()?;
@@ -29,7 +32,7 @@ pub(super) fn motion_figure(study: &Study) -> Option<Figure> {
             JointKind::Revolute => ("rad", "rad/s", "rad/s²"),
             JointKind::Prismatic => ("m", "m/s", "m/s²"),
         };
-        let orders: [(&'static str, &'static str, fn(&Target) -> &Vec<f64>); 3] = [
+        let orders: [Order; 3] = [
             ("position", position, |target| &target.q),
             ("speed", speed, |target| &target.qd),
             ("acceleration", acceleration, |target| &target.qdd),

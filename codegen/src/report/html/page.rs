@@ -30,7 +30,18 @@ pub(super) const SECTIONS: [(&str, &str, &str); 14] = [
 ];
 
 const STYLE: &str = include_str!("page.css");
-const SCRIPT: &str = include_str!("page.js");
+/// The parts of the script, in order.
+const SCRIPT: [&str; 9] = [
+    include_str!("script/elements.js"),
+    include_str!("script/numbers.js"),
+    include_str!("script/cursor.js"),
+    include_str!("script/lines.js"),
+    include_str!("script/bars.js"),
+    include_str!("script/arm.js"),
+    include_str!("script/figures.js"),
+    include_str!("script/difference.js"),
+    include_str!("script/slider.js"),
+];
 
 /// Forbids the page to load anything.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:; base-uri 'none'";
@@ -86,10 +97,9 @@ impl Page<'_> {
         out += ". This page holds all of its data and loads nothing.</p>\n";
         out += "<noscript><p>The pictures need scripts to be allowed. The words under them do not.</p></noscript>\n</footer>\n";
         out += "<div id=\"tip\" aria-hidden=\"true\" hidden></div>\n";
-        let _ = write!(
-            out,
-            "<script type=\"application/json\" id=\"data\">{data}</script>\n<script>\n{SCRIPT}</script>\n"
-        );
+        let _ = writeln!(out, "<script type=\"application/json\" id=\"data\">{data}</script>");
+        let script = SCRIPT.join("\n");
+        let _ = write!(out, "<script>\n\"use strict\";\n(() => {{\n{script}}})();\n</script>\n");
         out += "</body>\n</html>\n";
         Ok(out)
     }

@@ -63,8 +63,8 @@ pub(super) fn figure(study: &Study) -> Figure {
 fn caption(study: &Study, order: &[Ranked]) -> String {
     let count = study.generation.lagrangian().functions.len();
     let mut sum = 0.0;
-    let enough = order.iter().position(|share| {
-        sum += share.share;
+    let enough = order.iter().position(|chosen| {
+        sum += chosen.share;
         sum >= 0.99
     });
     let ranked = match enough {

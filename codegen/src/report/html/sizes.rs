@@ -7,8 +7,8 @@ use super::words::{self, counted};
 /// The smallest error that is drawn, % of the peak torque: what is below it is as good as exact.
 pub(super) const LEAST: f64 = 1e-4;
 
-/// Cost and error of every size, as dots and as a table; the same for all sizes. `twins` sizes are left out, since they are the exact
-/// model.
+/// Cost and error of every size, as dots and as a table; the same for all sizes. `twins` sizes are left out, since they came out the
+/// same as one of these.
 pub(super) fn figure(studies: &[Study], twins: usize) -> Figure {
     let mut panels = vec![Panel::Dots {
         title: "Torque error against cost".to_string(),
@@ -21,8 +21,8 @@ pub(super) fn figure(studies: &[Study], twins: usize) -> Figure {
     let twins = match twins {
         0 => String::new(),
         count => format!(
-            " {} within which nothing is cheaper than the exact model {} not shown apart from it.",
-            counted(count, "tolerance"),
+            " {} that came out the same as one of these {} left out.",
+            counted(count, "size"),
             if count == 1 { "is" } else { "are" }
         ),
     };

@@ -110,7 +110,7 @@ mod tests {
         let (turn, slide) = (JointKind::Revolute, JointKind::Prismatic);
         assert_eq!(position(0.020_251, turn, false), "20.3 mrad");
         assert_eq!(position(0.020_201, turn, true), "20.3 mrad");
-        assert_eq!(position(1.5708, turn, false), "1.57 rad");
+        assert_eq!(position(1.6308, turn, false), "1.63 rad");
         assert_eq!(position(2.7e-4, slide, false), "0.270 mm");
         assert_eq!(position(0.0, slide, true), "0 m");
         assert_eq!((time(0.001), time(3.0)), ("1 ms".to_string(), "3 s".to_string()));

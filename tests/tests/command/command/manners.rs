@@ -14,6 +14,7 @@ const COMMANDS: [&str; 12] = [
     "simulate",
     "sweep",
     "diff",
+    "report",
     "reproduce",
     "schema",
     "completions",

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use crate::common::{committed, finish, gramforge, run, text, value};
+use crate::common::{committed, finish, gramforge, root, run, text, value};
 
 /// A short motion, so that the loop is soon followed.
 fn short(folder: &Path) -> (String, Value) {
@@ -155,4 +155,22 @@ fn what_cannot_be_read_or_written_is_refused() {
     let refused =
         run(["report", &spec, "--one-size", "--runs", "1", "--out", &text(folder.path())]).expect(2);
     assert!(refused.stderr.contains("is a folder"), "{refused:?}");
+}
+
+#[test]
+fn the_command_of_the_guide_works() {
+    let guide = fs::read_to_string(root().join("docs/guides/report.md")).expect("the guide");
+    let command = guide.split("```sh\n").nth(1).and_then(|rest| rest.lines().next()).expect("a command");
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = text(&folder.path().join("arm3.html"));
+    let arguments = command.strip_prefix("gramforge ").expect("the command").replace("arm3.html", &out);
+    let told =
+        finish(gramforge().current_dir(root()).args(arguments.split(' ')).args(["--runs", "1"])).expect(0);
+    assert!(told.stdout.contains("arm3.html: written") && told.stdout.contains("model sizes"), "{told:?}");
+    // Every figure is explained.
+    let page = fs::read_to_string(&out).expect("a page");
+    let headings = page.split("-heading\">").skip(1).filter_map(|rest| rest.split("</h2>").next());
+    for heading in headings.filter(|heading| *heading != "Code") {
+        assert!(guide.contains(&format!("| {heading} |")), "{heading}");
+    }
 }
