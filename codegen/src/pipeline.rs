@@ -17,6 +17,7 @@ mod setting;
 mod step_rounding;
 mod threads;
 mod verdict;
+mod written;
 
 #[cfg(feature = "cli")]
 pub(crate) use expanded::candidates;

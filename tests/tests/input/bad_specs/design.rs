@@ -85,7 +85,7 @@ const CASES: &[Case] = &[
             i.set("/control/initial_error/position", json!(0.02));
         },
         "control.design.period",
-        &["0.1 s is too long", "gains up to", "shorten it"],
+        &["0.1 s is too long", "there are gains at", "shorten it"],
     ),
 ];
 

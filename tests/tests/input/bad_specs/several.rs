@@ -127,8 +127,8 @@ fn in_the_urdf_and_in_the_specification() {
     expect(
         &[input],
         &[
-            "arm.urdf:1: link[arm].inertial.mass: is -1",
-            "arm.urdf:1: joint[turn].dynamics.damping: is -1",
+            "arm.urdf: link[arm].inertial.mass: is -1",
+            "arm.urdf: joint[turn].dynamics.damping: is -1",
             "spec0.json: control.period: is 0",
         ],
     );
@@ -144,7 +144,7 @@ fn in_two_specifications() {
         &[
             "spec0.json: arm.dh.links[1].mass: is -1",
             "spec0.json: control.period: is 0",
-            "spec1.json: is not JSON that can be read (expected value)",
+            "spec1.json: is not JSON that can be read (key must be a string)",
         ],
     );
 }

@@ -248,7 +248,8 @@ fn a_file_that_is_no_tree_is_told_with_a_line() {
 
 #[test]
 fn limits_that_a_robot_file_cannot_state_have_a_place() {
-    let workspace = |name| Case::new(name).more("measure", json!("workspace"));
+    // The exact model needs no limits.
+    let workspace = |name| Case::new(name).more("measure", json!("workspace")).more("model", json!("auto"));
     workspace("no accelerations").refused(
         None,
         "arm.json: measure",
