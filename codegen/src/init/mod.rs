@@ -79,7 +79,7 @@ pub fn first(request: &Request, convergence_time: f64) -> Result<First, Error> {
     let motion = first_motion(&arm);
     page.motion = Some(motion.clone());
     let text = page.text();
-    let loaded = parse(&text, &request.out)?;
+    let loaded = read(&page, request)?;
     let locked = page.locked;
     Ok(First { text, loaded, arm, tips, locked, motion, warnings })
 }
@@ -105,12 +105,26 @@ fn chosen(request: &Request, tips: &mut Vec<Tip>) -> Result<Tip, Error> {
 
 /// The arm of `page` without a controller, and what is odd about it.
 fn alone(page: &text::Page, request: &Request) -> Result<(Arm, Vec<String>), Error> {
-    let loaded = parse(&page.text(), &request.out)?;
+    let loaded = read(page, request)?;
     let mut faults = Diagnostics::of(&request.out);
     match Arm::from_spec(&loaded, &mut faults) {
         Some(built) => faults.finish((built.arm, built.warnings)),
         None => Err(faults.into_error().pointing_into_files(&loaded)),
     }
+}
+
+/// The text of `page`, read. The folder of the specification need not be there yet, so the robot file is read by the path of
+/// the request.
+fn read(page: &text::Page, request: &Request) -> Result<Loaded, Error> {
+    let here = std::path::absolute(&request.urdf).unwrap_or_else(|_| request.urdf.clone());
+    let probe = text::Page { urdf: here.display().to_string(), ..page.clone() };
+    let mut loaded = parse(&probe.text(), &request.out)?;
+    loaded.spec.arm.urdf = Some(page.urdf.clone());
+    loaded.text = page.text().into();
+    for named in &mut loaded.named {
+        named.name.clone_from(&page.urdf);
+    }
+    Ok(loaded)
 }
 
 /// `file` as seen from the folder of `from`; as it is where either cannot be found.

@@ -72,18 +72,21 @@ fn the_number_of_threads_changes_nothing_but_the_time() {
 fn faults_as_json_name_their_places() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("arm.jsonc");
-    fs::write(&path, "{\n  // a comment\n  \"arm\": { \"urdf\": \"ä.urdf\", \"tipp\": 1 }\n}")
-        .expect("written");
-    let refused = finish(gramforge().arg("inspect").arg(&path).arg("--json")).expect(2);
-    let errors = refused.errors();
+    let refused = |text: &str| {
+        fs::write(&path, text).expect("written");
+        finish(gramforge().arg("inspect").arg(&path).arg("--json")).expect(2)
+    };
     let place = |error: &Value| ["line", "column", "end_column"].map(|key| error[key].as_u64());
-    let misspelt = errors.iter().find(|error| error["field"] == "arm.tipp").expect("a fault");
-    assert_eq!(place(misspelt), [Some(3), Some(31), Some(37)], "{refused:#?}");
-    let missing = errors.iter().find(|error| error["field"] == "arm.urdf").expect("a fault");
-    assert_eq!(place(missing), [Some(3), Some(20), Some(28)], "{refused:#?}");
-    assert!(
-        refused.stderr.contains("3 |   \"arm\": { \"urdf\": \"ä.urdf\", \"tipp\": 1 }\n"),
-        "{}",
-        refused.stderr
-    );
+    let outcome = refused("{\n  // a comment\n  \"arm\": { \"urdf\": \"ä.urdf\", \"tipp\": 1 }\n}");
+    let misspelt = &outcome.errors()[0];
+    assert_eq!(misspelt["field"], "arm.tipp");
+    assert_eq!(place(misspelt), [Some(3), Some(30), Some(36)], "{outcome:#?}");
+    let line = "3 |   \"arm\": { \"urdf\": \"ä.urdf\", \"tipp\": 1 }\n";
+    assert!(outcome.stderr.contains(line), "{}", outcome.stderr);
+
+    // A fault of a value has its place too.
+    let outcome = refused("{ \"arm\": { \"urdf\": \"ä.urdf\" } }");
+    let missing = &outcome.errors()[0];
+    assert_eq!(missing["field"], "arm.urdf");
+    assert_eq!(place(missing), [Some(1), Some(20), Some(28)], "{outcome:#?}");
 }

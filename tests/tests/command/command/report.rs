@@ -169,8 +169,11 @@ fn the_command_of_the_guide_works() {
     assert!(told.stdout.contains("arm3.html: written") && told.stdout.contains("model sizes"), "{told:?}");
     // Every figure is explained.
     let page = fs::read_to_string(&out).expect("a page");
-    let headings = page.split("-heading\">").skip(1).filter_map(|rest| rest.split("</h2>").next());
-    for heading in headings.filter(|heading| *heading != "Code") {
+    let titles = page.split("<h2 id=\"").skip(1).filter_map(|rest| rest.split("</h2>").next());
+    let headings: Vec<&str> =
+        titles.filter_map(|title| title.split_once("\">")).map(|title| title.1).collect();
+    assert!(headings.len() > 10, "{headings:?}");
+    for heading in headings.into_iter().filter(|heading| *heading != "Code") {
         assert!(guide.contains(&format!("| {heading} |")), "{heading}");
     }
 }
