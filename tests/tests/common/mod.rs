@@ -1,6 +1,6 @@
 //! The command as a process, and folders to run it in.
 
-#![allow(dead_code, reason = "no test uses all of it")]
+#![allow(dead_code, unused_imports, reason = "no test uses all of it")]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
