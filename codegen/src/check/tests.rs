@@ -81,6 +81,7 @@ fn a_check_of_the_desired_motion_needs_limits_and_no_motion() {
         &[
             "emit.check_reference: asks for a check that is part of a step that is written out, but `emit.law` is `runtime`; remove",
             "emit.check_reference: needs the limits of velocity and acceleration of every joint, which are missing for joint2; add",
+            "measure: is \"workspace\", but of the joint limits joint2 lacks acceleration; add",
         ],
     );
     let none = |v: &mut Value| {

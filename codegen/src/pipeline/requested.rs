@@ -37,7 +37,8 @@ pub(super) fn requested(
     request: &GainRequest,
     means: Means,
 ) -> Result<Judged, Error> {
-    let nearest = match attempt(certified, control, request, means) {
+    let first = Designed::made(certified, control, means);
+    let nearest = match attempt(certified, control, request, first, means) {
         Ok(judged) => return Ok(judged),
         Err(nearest) => *nearest,
     };
@@ -49,7 +50,9 @@ pub(super) fn requested(
         let enough = |shorter: &f64| {
             let request = GainRequest { period: Some(*shorter), ..request.clone() };
             let control = Control { gains: GainSource::Requested(request.clone()), ..control.clone() };
-            attempt(certified, &control, &request, means).is_ok()
+            // A level of V that no gains hold at one period is not sought again: that search takes longest.
+            let unknown = Err(Error::Internal("no level of V was sought".to_string()));
+            attempt(certified, &control, &request, unknown, means).is_ok()
         };
         if let Some(shorter) = shorter.into_iter().find(enough) {
             let problem = format!("{period} s is too long: there are gains at {shorter} s");
@@ -68,11 +71,13 @@ pub(super) fn requested(
     Err(Error::input(file, "control.design", problem, help))
 }
 
-/// The same for the periods of the request alone; where no gains are found, those that come nearest or what the first search says.
+/// The same for the periods of the request alone, from `first`, the controller of a level of V; where no gains are found, those
+/// that come nearest or what the first search says.
 fn attempt(
     certified: &Certified,
     control: &Control,
     request: &GainRequest,
+    first: Result<Judged, Error>,
     means: Means,
 ) -> Result<Judged, Box<Result<Judged, Error>>> {
     let is_sampled = |judged: &Judged| {
@@ -80,7 +85,7 @@ fn attempt(
         let sampled = statement.and_then(|statement| statement.sampled.as_ref());
         sampled.is_some_and(|sampled| inside(request, sampled))
     };
-    let mut nearest = match Designed::made(certified, control, means) {
+    let mut nearest = match first {
         Ok(first) => {
             let first = first.stated(certified, means);
             if is_sampled(&first) {
