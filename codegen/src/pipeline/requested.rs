@@ -46,7 +46,7 @@ pub(super) fn requested(
     let known = nearest.as_ref().ok().and_then(|judged| judged.statement.as_ref());
     let sampled = known.and_then(|statement| statement.sampled.as_ref());
     if let (Some(period), None) = (request.period, sampled) {
-        let shorter = (1..=HALVINGS).map(|k| two_digits(period / f64::from(1 << k)));
+        let shorter = |k: u32| two_digits(period / f64::from(1 << k));
         let enough = |shorter: &f64| {
             let request = GainRequest { period: Some(*shorter), ..request.clone() };
             let control = Control { gains: GainSource::Requested(request.clone()), ..control.clone() };
@@ -54,7 +54,9 @@ pub(super) fn requested(
             let unknown = Err(Error::Internal("no level of V was sought".to_string()));
             attempt(certified, &control, &request, unknown, means).is_ok()
         };
-        if let Some(shorter) = shorter.into_iter().find(enough) {
+        // What the shortest one does not help, none does.
+        let helps = enough(&shorter(HALVINGS));
+        if let Some(shorter) = (1..=HALVINGS).map(shorter).find(|period| helps && enough(period)) {
             let problem = format!("{period} s is too long: there are gains at {shorter} s");
             let help = "shorten it, widen the tube, or allow more time to converge";
             return Err(Error::input(file, "control.design.period", problem, help));
