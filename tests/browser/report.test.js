@@ -19,7 +19,7 @@ const validator = new HtmlValidate(new FileSystemConfigLoader({ root: true, exte
 
 const REPORTS = {
   arm3: ["generated/specs/arm3_xi2.json"],
-  puma: ["generated/specs/puma560_one_percent.json"],
+  puma: ["generated/specs/puma560_one_percent.json", "--sizes", "exact,5%", "--runs", "8"],
   // Minutes for each size: one is enough to see seven joints and an arm from a URDF file.
   panda: ["tests/data/panda.json", "--one-size", "--runs", "4"],
 };

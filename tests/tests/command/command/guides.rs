@@ -17,14 +17,16 @@ fn blocks<'a>(text: &'a str, kind: &str) -> Vec<&'a str> {
     text.split(fence.as_str()).skip(1).filter_map(|rest| rest.split("```").next()).collect()
 }
 
-fn ur5(folder: &Path) {
-    fs::copy(root().join("tests/data/ur5.urdf"), folder.join("ur5.urdf")).expect("copied");
+/// A robot file of the name that the guides use.
+fn robot(folder: &Path, file: &str) {
+    fs::copy(root().join("tests/data").join(file), folder.join("ur5.urdf")).expect("copied");
 }
 
 #[test]
 fn the_first_steps_are_commands_that_work_one_after_the_other() {
     let folder = tempfile::tempdir().expect("a folder");
-    ur5(folder.path());
+    // A small arm, so that all of it takes seconds.
+    robot(folder.path(), "follower.urdf");
     let text = guide("start.md");
     let commands: Vec<&str> = blocks(&text, "sh").into_iter().flat_map(str::lines).collect();
     assert!(commands.len() >= 7, "{commands:?}");
@@ -33,7 +35,7 @@ fn the_first_steps_are_commands_that_work_one_after_the_other() {
         let done = finish(gramforge().current_dir(folder.path()).args(&words)).expect(0);
         assert!(!done.stdout.is_empty(), "{line}: {done:#?}");
     }
-    for file in ["src/ur5.rs", "ur5.svg", "ur5.html", "specs/gramforge.schema.json"] {
+    for file in ["src/chain.rs", "ur5.svg", "ur5.html", "specs/gramforge.schema.json"] {
         assert!(folder.path().join(file).exists(), "{file}");
     }
 }
@@ -53,7 +55,7 @@ fn merge(whole: &mut Value, part: &Value) {
 #[test]
 fn the_fragments_of_specifications_fit_into_one() {
     let folder = tempfile::tempdir().expect("a folder");
-    ur5(folder.path());
+    robot(folder.path(), "ur5.urdf");
     let begun = "{ \"arm\": { \"urdf\": \"ur5.urdf\", \"tip\": \"tool0\" },
         \"motion\": { \"quintic\": { \"from\": [0, 0, 0, 0, 0, 0], \"to\": [1, 1, 1, 1, 1, 1], \"duration\": 5 } },
         \"control\": { \"law\": \"tight\", \"design\": { \"convergence_time\": 1.0 } } }";
