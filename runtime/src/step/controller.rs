@@ -70,9 +70,8 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
         if sum != zero {
             return Err(self.fault_of(q, qd, desired, &torque.asked));
         }
-        if let Some(limits) = &S::REFERENCE
-            && let Some((quantity, joint)) = limits.beyond(desired)
-        {
+        let beyond = S::REFERENCE.as_ref().and_then(|limits| limits.beyond(desired));
+        if let Some((quantity, joint)) = beyond {
             return Err(self.fault(q, quantity, Reason::BeyondLimits, joint));
         }
         self.estimate.correct(&torque.correction, &S::LEARNING.low, &S::LEARNING.high);
