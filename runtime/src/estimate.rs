@@ -26,7 +26,8 @@ impl<T: Real, const P: usize> Estimate<T, P> {
     }
 
     /// Takes `correction` off θ̂ and brings the result into the box from `low` to `high`. What is infinite or NaN is not taken.
-    #[inline]
+    // On its own, so that what it computes takes no room on the stack while the law runs.
+    #[inline(never)]
     pub fn correct(&mut self, correction: &[T; P], low: &[T; P], high: &[T; P]) {
         for k in 0..P {
             let step = self.remainder[k] - correction[k];

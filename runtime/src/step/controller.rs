@@ -74,7 +74,9 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
         if let Some((quantity, joint)) = beyond {
             return Err(self.fault(q, quantity, Reason::BeyondLimits, joint));
         }
-        self.estimate.correct(&torque.correction, &S::LEARNING.low, &S::LEARNING.high);
+        if P > 0 {
+            self.estimate.correct(&torque.correction, &S::LEARNING.low, &S::LEARNING.high);
+        }
         self.last_command = torque.limited;
         if S::SETTINGS.on_fault == OnFault::Gravity {
             (self.last_position, self.positioned) = (*q, true);

@@ -13,7 +13,7 @@ const LIMITS: [(&str, u64, u64); 9] = [
     ("puma560_exact", 1150, 512),
     ("puma560_one_percent", 950, 512),
     ("puma560_robust", 2100, 768),
-    ("puma560_adaptive", 1400, 528),
+    ("puma560_adaptive", 1400, 512),
     ("panda_exact", 1600, 768),
 ];
 
