@@ -1,6 +1,6 @@
 //! The whole claim: along the motion, and after it for as long as it holds.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Schur};
 
 use super::funnel::{Funnel, Lost, Step};
 use super::problem::Problem;
@@ -13,6 +13,8 @@ const MOST: f64 = 4e5;
 const LATE: f64 = 10_000.0;
 /// Time constants of the slowest error after which it counts as settled.
 const SETTLED: f64 = 8.0;
+/// Iterations that each eigenvalue may take; a few are enough where they are found at all.
+const MOST_ITERATIONS: usize = 100;
 /// How much larger than the set a box is that is to hold for ever.
 const ROOM: f64 = 1.05;
 /// The same of a box that is to hold after a repetition: the errors come back into it only as fast as they die away.
@@ -64,6 +66,8 @@ pub(super) enum Open {
     Wider(Vec<f64>),
     /// The motion takes this many periods.
     Long(f64),
+    /// The motion ends before the first period does, and nothing is known of the time after it.
+    Short,
 }
 
 /// The claim while it grows.
@@ -81,7 +85,7 @@ pub(super) fn follow(problem: &Problem, declared: &[f64], settle: Option<f64>) -
     let motion = problem.motion;
     let periods = motion.duration() / problem.period;
     let repetition = problem.repetition.as_ref();
-    let (whole, rests) = (libm::ceil(periods - 1e-9), motion.rests());
+    let (whole, rests) = (libm::ceil(periods - 1e-9).max(1.0), motion.rests());
     // A motion that does not rest at its end is claimed for as long as it was planned.
     let last = if rests { whole } else { libm::floor(periods + 1e-9) };
     let mut funnel = Funnel::new(problem);
@@ -94,6 +98,9 @@ pub(super) fn follow(problem: &Problem, declared: &[f64], settle: Option<f64>) -
     });
     if last > MOST {
         return Err(Open::Long(last));
+    }
+    if last < 1.0 {
+        return Err(Open::Short);
     }
     let mut claim = Claim::new(problem, declared, settle, n);
     // Where errors are wider than declared, those of the next periods say by how much.
@@ -286,7 +293,14 @@ fn settling(problem: &Problem, funnel: &Funnel) -> f64 {
     let Some(map) = funnel.frozen() else { return problem.motion.duration() };
     let n = map.len();
     let matrix = DMatrix::from_fn(n, n, |i, j| map[i][j]);
-    let slowest = matrix.complex_eigenvalues().iter().map(|x| libm::hypot(x.re, x.im)).fold(0.0, f64::max);
+    if !matrix.iter().all(|entry| entry.is_finite()) {
+        return problem.motion.duration();
+    }
+    // Of numbers of very different sizes the iteration may not end.
+    let Some(schur) = Schur::try_new(matrix, f64::EPSILON, MOST_ITERATIONS * n) else {
+        return problem.motion.duration();
+    };
+    let slowest = schur.complex_eigenvalues().iter().map(|x| libm::hypot(x.re, x.im)).fold(0.0, f64::max);
     falls(slowest, problem.period).unwrap_or(problem.motion.duration())
 }
 

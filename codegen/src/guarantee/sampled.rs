@@ -74,6 +74,13 @@ impl SampledLoop<'_> {
                         "the motion takes {periods} periods, and more than 400000 are not followed: repeat a shorter one"
                     )]);
                 }
+                Err(Open::Short) => {
+                    return Err(vec![format!(
+                        "the motion takes {} s, less than one control period of {} s, and does not end at rest",
+                        short(self.motion.duration()),
+                        short(self.design.period)
+                    )]);
+                }
                 Err(Open::Lost(lost)) => return Err(vec![self.lost(&lost)]),
             }
         }

@@ -1,5 +1,7 @@
 //! Where the errors of a loop can be followed no further.
 
+use gramforge_runtime::reference::Sinusoid;
+
 use super::follow::{Open, falls, follow};
 use super::funnel::{Funnel, Lost};
 use super::problem::{Problem, Switching};
@@ -98,4 +100,25 @@ fn only_errors_that_fall_have_a_time_to_settle() {
     for factor in [1.0, 1.5, f64::INFINITY, f64::NAN] {
         assert_eq!(falls(factor, 0.001), None, "{factor}");
     }
+}
+
+/// A motion that moves on at its end is claimed for whole periods of it: of none, there is nothing to claim.
+#[test]
+fn a_motion_of_less_than_a_period_is_not_claimed() {
+    judged(100.0, 0.0, |problem| {
+        let moving = Motion::Sinusoids {
+            offset: vec![0.2, 0.5, -1.4],
+            terms: vec![vec![Sinusoid { amplitude: 0.1, frequency: 1.0, phase: 0.3 }], vec![], vec![]],
+            duration: 0.0005,
+        };
+        assert!(!moving.rests());
+        let of = |motion| follow(&Problem { motion, ..problem.clone() }, &WIDE, Some(1.5));
+        assert_eq!(of(&moving), Err(Open::Short));
+        // At rest the period that holds the motion is followed, and those after it.
+        let place = vec![0.2, 0.5, -1.4];
+        let brief = Motion::Quintic { from: place.clone(), to: place, duration: 1e-13 };
+        let sampled = of(&brief).expect("the errors die away");
+        assert_eq!(sampled.valid_until, None);
+        assert!(sampled.reach.iter().zip(START).all(|(reach, start)| *reach >= start), "{:?}", sampled.reach);
+    });
 }

@@ -158,6 +158,7 @@ fn a_request_that_cannot_be_met_is_refused_and_the_help_helps() {
     );
     let shorter = number(&message, "there are gains at ");
     assert!(tight(json!({ "convergence_time": 1.5, "period": shorter }), 0.02).is_ok(), "{shorter}");
+    assert!(tight(json!({ "convergence_time": 1.5, "period": 2.0 * shorter }), 0.02).is_err(), "{shorter}");
 
     // A level of V needs more room than the loop does.
     for (request, error, tube) in [

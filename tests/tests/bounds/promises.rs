@@ -166,6 +166,8 @@ fn the_final_error_of_a_joint_at_rest_is_that_of_rounding() {
         println!("{law} at {place}: {last:e} within {published:e}");
         assert!(guarantee.holds, "{:?}", guarantee.reasons);
         assert!(published > 0.0 && last <= published && published < 1e-10, "{law}: {last:e} {published:e}");
+        let module = generation.module().unwrap();
+        assert!(module.contains("From every initial error specified, the loop that runs holds for ever:"));
     }
 }
 

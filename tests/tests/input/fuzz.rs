@@ -15,8 +15,8 @@ use serde_json::Value;
 
 /// Inputs of each kind where the environment does not say.
 const INPUTS: usize = 2000;
-/// The longest that one input may take: it is followed from sample to sample, hardly optimised, beside other tests.
-const LONGEST: Duration = Duration::from_secs(60);
+/// The longest that one input may take.
+const LONGEST: Duration = Duration::from_secs(20);
 /// The most memory that the whole process may have had, bytes.
 const MEMORY: usize = 2_000_000_000;
 

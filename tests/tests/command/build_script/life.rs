@@ -4,6 +4,14 @@ use std::fs;
 
 use super::package::{Package, spec, urdf};
 
+/// Line and column of the first `value` in `text`, as messages name them.
+fn place(text: &str, value: &str) -> String {
+    let at = text.find(value).expect("a value");
+    let (line, column) =
+        (text[..at].matches('\n').count(), text[..at].rsplit('\n').next().map_or(0, str::len));
+    format!("{}:{}", line + 1, column + 1)
+}
+
 /// A package of one specification `specs/arm.json`, run once.
 fn arm(name: &str) -> Package {
     let package = Package::new(name);
@@ -24,8 +32,9 @@ fn a_broken_specification_breaks_the_build_until_it_is_repaired() {
     let good = fs::read_to_string(&module).expect("a module");
     let before = package.listing();
     let broken = spec("arm", "arm.urdf", -1.0);
+    let period = format!("specs/arm.json:{}: control.period: is -1", place(&broken, "-1"));
     for (text, words) in [
-        (broken.as_str(), "control.period: is -1"),
+        (broken.as_str(), period.as_str()),
         ("{", "specs/arm.json:1:1: is not JSON that can be read "),
         ("{\"name\": 3}", "specs/arm.json:1:10: name: is 3"),
     ] {
@@ -128,9 +137,13 @@ fn two_specifications_stand_and_fall_together() {
     package.modules(&["arm", "second"]);
     assert_eq!(package.run().good(), "0.001\n0.002\n");
 
-    package.write("specs/arm.json", &spec("arm", "arm.urdf", -1.0));
-    package.write("specs/second.json", &spec("second", "arm.urdf", -2.0));
-    package.run().bad(&["control.period: is -1", "control.period: is -2"]);
+    let (first, second) = (spec("arm", "arm.urdf", -1.0), spec("second", "arm.urdf", -2.0));
+    package.write("specs/arm.json", &first);
+    package.write("specs/second.json", &second);
+    package.run().bad(&[
+        &format!("specs/arm.json:{}: control.period: is -1", place(&first, "-1")),
+        &format!("specs/second.json:{}: control.period: is -2", place(&second, "-2")),
+    ]);
     for module in ["arm.rs", "second.rs"] {
         let stale = fs::read_to_string(package.out_dir().join(module)).expect("a module");
         assert!(stale.contains("is -1") && stale.contains("is -2"), "{stale}");
@@ -162,7 +175,10 @@ fn a_named_file_is_watched() {
     assert!(heavy != light && header(&heavy) != header(&light), "the URDF's bytes count in module and hash");
 
     fs::remove_file(package.path("specs/arm.urdf")).expect("removed");
-    package.run().bad(&["arm.urdf: names specs/arm.urdf, which cannot be read"]);
+    let named = place(&spec("arm", "arm.urdf", 0.001), "\"arm.urdf\"");
+    package
+        .run()
+        .bad(&[&format!("specs/arm.json:{named}: arm.urdf: names specs/arm.urdf, which cannot be read")]);
     assert!(fs::read_to_string(&module).expect("a module").contains("::core::compile_error!("));
 
     package.write("specs/arm.urdf", &urdf("joint1", "link1", 1.0));
