@@ -9,8 +9,9 @@ use clap::{Args, ValueEnum};
 use super::progress::watched;
 use super::show_warnings;
 use crate::bounds::Effort;
+use crate::cache::Cache;
 use crate::error::{Diagnostics, Error};
-use crate::init::{CONVERGENCE_TIMES, Example, First, Request, example, first};
+use crate::init::{Example, First, Request, TRIALS, example, first};
 use crate::load::SCHEMA;
 use crate::output::{Wanted, write_all};
 use crate::pipeline::Generation;
@@ -98,17 +99,14 @@ impl Init {
             tip: self.tip.clone(),
             law,
         };
-        let begun = first(&request, CONVERGENCE_TIMES[0])?;
+        let begun = first(&request, TRIALS[0])?;
         if self.out.is_none() {
             request.out = PathBuf::from(format!("{}.jsonc", begun.loaded.spec.name));
         }
         self.refuse_standing(&[request.out.clone(), request.out.with_file_name(SCHEMA_NAME)])?;
         show_warnings(&begun.warnings);
-        let (first, tried) = if self.untried {
-            (first(&request, CONVERGENCE_TIMES[0])?, String::new())
-        } else {
-            tried(&request)?
-        };
+        let (first, tried) =
+            if self.untried { (first(&request, TRIALS[0])?, String::new()) } else { tried(&request)? };
         let wanted =
             [(request.out.clone(), first.text.as_str()), (request.out.with_file_name(SCHEMA_NAME), SCHEMA)];
         let written = self.write(&wanted)?;
@@ -145,13 +143,14 @@ impl Init {
 /// The first specification with a promise, of those whose errors converge faster or slower; the last one otherwise. What is
 /// promised, in words.
 fn tried(request: &Request) -> Result<(First, String), Error> {
+    let kept = Kept::new();
     let mut last = None;
-    for time in CONVERGENCE_TIMES {
-        let first = first(request, time)?;
+    for trial in TRIALS {
+        let first = first(request, trial)?;
         let generation = watched(|progress| {
             let loaded = first.loaded.clone();
             let _stage = Stage::new(progress, "first design", 1);
-            Generation::with_progress(loaded, &Effort::default(), progress)
+            Generation::cached(loaded, &Effort::default(), progress, kept.cache.as_ref())
         });
         let said = match &generation {
             Err(Error::Input(faults)) => refused(faults),
@@ -164,6 +163,27 @@ fn tried(request: &Request) -> Result<(First, String), Error> {
         }
     }
     last.ok_or_else(|| Error::Internal("no specification was tried".into()))
+}
+
+/// What one trial leaves for the next: the model and its bounds, in a folder that goes with it.
+struct Kept {
+    folder: PathBuf,
+    cache: Option<Cache>,
+}
+
+impl Kept {
+    fn new() -> Self {
+        let folder = std::env::temp_dir().join(format!("gramforge-init-{}", std::process::id()));
+        let cache = Cache::below(&folder);
+        Self { folder, cache }
+    }
+}
+
+impl Drop for Kept {
+    fn drop(&mut self) {
+        // Nothing depends on it: the folder may never have been made.
+        let _ = fs::remove_dir_all(&self.folder);
+    }
 }
 
 /// Why the design was refused.

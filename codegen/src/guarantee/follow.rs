@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, Schur};
 
+use super::declared::Declared;
 use super::funnel::{Funnel, Lost, Step};
 use super::problem::Problem;
 use super::set::ErrorSet;
@@ -40,7 +41,7 @@ pub struct Sampled {
     pub valid_until: Option<f64>,
     /// Range of the torque that the law asks for, by joint, N·m or N.
     pub torque: Vec<[f64; 2]>,
-    /// What the emitted step was allowed to be wrong by at a sample, rounding included, by joint, N·m or N: its torque less that of
+    /// What the emitted step was allowed to be wrong by at any sample, rounding included, by joint, N·m or N: its torque less that of
     /// the law about the arm as specified.
     pub torque_error: Vec<f64>,
     /// When the torque comes nearest to its limits, by joint, s.
@@ -62,8 +63,8 @@ impl Sampled {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Open {
     Lost(Lost),
-    /// The errors go beyond those that the loop's errors in torque were bounded for: of position, then of speed.
-    Wider(Vec<f64>),
+    /// The errors go beyond all that the step's own error was bounded for: of position, then of speed.
+    Growing(Vec<f64>),
     /// The motion takes this many periods.
     Long(f64),
     /// The motion ends before the first period does, and nothing is known of the time after it.
@@ -73,14 +74,13 @@ pub(super) enum Open {
 /// The claim while it grows.
 struct Claim<'a> {
     problem: &'a Problem<'a>,
-    /// Bounds on |q_e| and |q̇_e| for which the torque error holds.
-    declared: &'a [f64],
+    declared: Declared<'a>,
     out: Sampled,
     settled: Vec<f64>,
 }
 
-/// Follows the loop of `problem`, whose torque error holds while (|q_e|, |q̇_e|) ≤ `declared`.
-pub(super) fn follow(problem: &Problem, declared: &[f64], settle: Option<f64>) -> Result<Sampled, Open> {
+/// Follows the loop of `problem`, whose step is wrong by what `declared` says.
+pub(super) fn follow(problem: &Problem, declared: Declared, settle: Option<f64>) -> Result<Sampled, Open> {
     let n = problem.arm.dof();
     let motion = problem.motion;
     let periods = motion.duration() / problem.period;
@@ -88,7 +88,7 @@ pub(super) fn follow(problem: &Problem, declared: &[f64], settle: Option<f64>) -
     let (whole, rests) = (libm::ceil(periods - 1e-9).max(1.0), motion.rests());
     // A motion that does not rest at its end is claimed for as long as it was planned.
     let last = if rests { whole } else { libm::floor(periods + 1e-9) };
-    let mut funnel = Funnel::new(problem);
+    let mut funnel = Funnel::new(problem, declared.wrong());
     let settle = settle.unwrap_or_else(|| settling(problem, &funnel));
     // Whole repetitions until the errors have settled: what is closed then holds errors as small as they are.
     let last = repetition.map_or(last, |repetition| {
@@ -103,23 +103,18 @@ pub(super) fn follow(problem: &Problem, declared: &[f64], settle: Option<f64>) -
         return Err(Open::Short);
     }
     let mut claim = Claim::new(problem, declared, settle, n);
-    // Where errors are wider than declared, those of the next periods say by how much.
-    let ahead = |open: Open, funnel: &mut Funnel| match open {
-        Open::Wider(most) => Open::Wider(funnel.ahead(most)),
-        open => open,
-    };
-    claim.start(&funnel.set).map_err(|open| ahead(open, &mut funnel))?;
+    claim.start(&mut funnel)?;
     while (funnel.index as f64) < last {
         let step = funnel.step().map_err(Open::Lost)?;
-        claim.take(&step).map_err(|open| ahead(open, &mut funnel))?;
+        claim.take(&step, &mut funnel)?;
     }
     claim.out.end_error = funnel.set.hull()[..n].to_vec();
     if rests {
-        claim.rest(&mut funnel)?;
+        claim.rest(&mut funnel);
     } else if let Some(repetition) = repetition {
         let offset = last * problem.period;
         for room in ROOMS {
-            if claim.repeat(&funnel.set, offset, repetition.periods, room)? {
+            if claim.repeat(&funnel, offset, repetition.periods, room) {
                 break;
             }
         }
@@ -130,7 +125,7 @@ pub(super) fn follow(problem: &Problem, declared: &[f64], settle: Option<f64>) -
 }
 
 impl<'a> Claim<'a> {
-    fn new(problem: &'a Problem<'a>, declared: &'a [f64], settle: f64, n: usize) -> Self {
+    fn new(problem: &'a Problem<'a>, declared: Declared<'a>, settle: f64, n: usize) -> Self {
         let out = Sampled {
             reach: vec![0.0; n],
             settle,
@@ -139,7 +134,7 @@ impl<'a> Claim<'a> {
             speed_error: vec![0.0; n],
             valid_until: None,
             torque: vec![[f64::INFINITY, f64::NEG_INFINITY]; n],
-            torque_error: problem.torque_error.clone(),
+            torque_error: vec![0.0; n],
             torque_time: vec![0.0; n],
             course: Vec::new(),
         };
@@ -147,23 +142,24 @@ impl<'a> Claim<'a> {
     }
 
     /// The set at the start.
-    fn start(&mut self, set: &ErrorSet) -> Result<(), Open> {
+    fn start(&mut self, funnel: &mut Funnel) -> Result<(), Open> {
         let n = self.problem.arm.dof();
-        let hull = set.hull();
-        self.out.course.push((0.0, hull[..n].to_vec()));
-        self.within(&hull)
+        self.out.course.push((0.0, funnel.set.hull()[..n].to_vec()));
+        self.admit(funnel)
     }
 
-    fn within(&self, hull: &[f64]) -> Result<(), Open> {
-        let inside = hull.iter().zip(self.declared).all(|(x, declared)| x <= declared);
-        if inside { Ok(()) } else { Err(Open::Wider(hull.to_vec())) }
+    /// Makes what the next step is wrong by hold for the set.
+    fn admit(&mut self, funnel: &mut Funnel) -> Result<(), Open> {
+        self.declared.widen(funnel).map_err(Open::Growing)?;
+        self.out.torque_error.clone_from(&funnel.wrong.torque);
+        Ok(())
     }
 
-    fn take(&mut self, step: &Step) -> Result<(), Open> {
-        self.within(&step.hull)?;
+    /// Takes the period that `funnel` has just followed.
+    fn take(&mut self, step: &Step, funnel: &mut Funnel) -> Result<(), Open> {
         self.count(step);
         self.out.course.push((step.time, step.during.clone()));
-        Ok(())
+        self.admit(funnel)
     }
 
     fn count(&mut self, step: &Step) {
@@ -193,7 +189,7 @@ impl<'a> Claim<'a> {
     }
 
     /// After the motion: until a box is found from which the errors come back into it, or until they cannot be followed.
-    fn rest(&mut self, funnel: &mut Funnel) -> Result<(), Open> {
+    fn rest(&mut self, funnel: &mut Funnel<'a>) {
         let period = self.problem.period;
         // What holds for ever holds once the errors have settled, as small as they are then.
         let settled = libm::ceil(self.out.settle / period).min(funnel.index as f64 + LATE);
@@ -201,56 +197,54 @@ impl<'a> Claim<'a> {
         let between = (0.25 / period).max(1.0) as usize;
         for _ in 0..TRIALS {
             for _ in 0..before {
-                match funnel.step() {
-                    Ok(step) => self.take(&step)?,
-                    Err(_) => {
-                        self.out.valid_until = Some(funnel.index as f64 * period);
-                        return Ok(());
-                    }
+                let follows = funnel.step().is_ok_and(|step| self.take(&step, funnel).is_ok());
+                if !follows {
+                    self.out.valid_until = Some(funnel.index as f64 * period);
+                    return;
                 }
             }
-            if self.returns(&funnel.set, funnel.index)? {
-                return Ok(());
+            if self.returns(funnel) {
+                return;
             }
             before = between;
         }
         self.out.valid_until = Some(funnel.index as f64 * period);
-        Ok(())
     }
 
-    /// Whether some box around `set` holds the errors again after a number of periods at rest from period `index` on.
-    fn returns(&mut self, set: &ErrorSet, index: usize) -> Result<bool, Open> {
-        let (mut funnel, around) = self.boxed(set, ROOM, index);
+    /// Whether some box around the set of `settled` holds the errors again after a number of periods at rest.
+    fn returns(&mut self, settled: &Funnel<'a>) -> bool {
+        let (mut funnel, around) = self.boxed(settled, ROOM, settled.index);
         let mut steps = Vec::new();
         for k in 0..RETURN {
-            let Ok(step) = funnel.step() else { return Ok(false) };
-            if self.within(&step.hull).is_err() {
-                return Ok(false);
+            if !self.declared.hold(&funnel.set.hull()) {
+                return false;
             }
+            let Ok(step) = funnel.step() else { return false };
             steps.push(step);
             if k % 8 == 7 && self.holds(&around, &funnel.set) {
                 steps.iter().for_each(|step| self.count_for_ever(step));
-                return Ok(true);
+                return true;
             }
         }
-        Ok(false)
+        false
     }
 
-    /// Whether a box around `set`, that at the end of a repetition, `offset` s, holds the errors again at the end of the next.
-    fn repeat(&mut self, set: &ErrorSet, offset: f64, periods: usize, room: f64) -> Result<bool, Open> {
-        let (mut funnel, around) = self.boxed(set, room, 0);
+    /// Whether a box around the set of `settled`, that at the end of a repetition, `offset` s, holds the errors again at the end of the
+    /// next.
+    fn repeat(&mut self, settled: &Funnel<'a>, offset: f64, periods: usize, room: f64) -> bool {
+        let (mut funnel, around) = self.boxed(settled, room, 0);
         let duration = self.problem.motion.duration();
         self.out.valid_until = Some(offset.min(duration));
         let mut steps = Vec::new();
         for _ in 0..periods {
-            let Ok(step) = funnel.step() else { return Ok(false) };
-            if self.within(&step.hull).is_err() {
-                return Ok(false);
+            if !self.declared.hold(&funnel.set.hull()) {
+                return false;
             }
+            let Ok(step) = funnel.step() else { return false };
             steps.push(Step { time: step.time + offset, ..step });
         }
         if !self.holds(&around, &funnel.set) {
-            return Ok(false);
+            return false;
         }
         self.out.valid_until = Some(duration);
         for step in &steps {
@@ -259,18 +253,18 @@ impl<'a> Claim<'a> {
         for (i, end) in self.out.end_error.iter_mut().enumerate() {
             *end = steps.iter().map(|step| step.during[i]).fold(0.0, f64::max);
         }
-        Ok(true)
+        true
     }
 
-    /// The errors of all (q_e, s) in a box `room` times as large as that around `set`, at the start of period `index`, and its half
-    /// sides.
-    fn boxed(&self, set: &ErrorSet, room: f64, index: usize) -> (Funnel<'a>, Vec<f64>) {
+    /// The errors of all (q_e, s) in a box `room` times as large as that around the set of `funnel`, at the start of period `index`,
+    /// and its half sides.
+    fn boxed(&self, funnel: &Funnel<'a>, room: f64, index: usize) -> (Funnel<'a>, Vec<f64>) {
         let gains = self.problem.gains;
-        let around: Vec<f64> = set.turned_hull(gains).iter().map(|x| room * x + 1e-13).collect();
+        let around: Vec<f64> = funnel.set.turned_hull(gains).iter().map(|x| room * x + 1e-13).collect();
         let still = vec![0.0; self.problem.arm.dof()];
         let mut start = ErrorSet::new(&still, &still, self.problem.numbers.len());
         start.add_box(gains, &around);
-        (Funnel::from(self.problem, start, index), around)
+        (Funnel::from(self.problem, funnel.wrong.clone(), start, index), around)
     }
 
     /// Whether `set` lies in the box with the half sides `around`.

@@ -3,7 +3,7 @@
 use super::course::Course;
 use super::local::Local;
 use super::period::{During, Stop};
-use super::problem::Problem;
+use super::problem::{Problem, Wrong};
 use super::set::ErrorSet;
 use crate::parallel::Parallelize;
 
@@ -12,7 +12,7 @@ const TOGETHER: usize = 64;
 /// Periods after which generators are boxed.
 const OFTEN: usize = 24;
 /// Periods that are looked ahead.
-const AHEAD: usize = 256;
+const AHEAD: usize = 128;
 /// How much larger than the set a box of displacements is made.
 const ROOM: f64 = 3.0;
 /// How often a box may be made larger for one period.
@@ -22,6 +22,8 @@ const TRIES: usize = 12;
 #[derive(Clone, Debug)]
 pub(super) struct Funnel<'a> {
     problem: &'a Problem<'a>,
+    /// What the emitted step is wrong by from now on.
+    pub(super) wrong: Wrong,
     pub(super) set: ErrorSet,
     /// Number of the period that comes next.
     pub(super) index: usize,
@@ -53,14 +55,14 @@ pub(super) enum Lost {
 }
 
 impl<'a> Funnel<'a> {
-    pub(super) fn new(problem: &'a Problem<'a>) -> Self {
+    pub(super) fn new(problem: &'a Problem<'a>, wrong: Wrong) -> Self {
         let [position, velocity] = problem.initial;
-        Self::from(problem, ErrorSet::new(position, velocity, problem.numbers.len()), 0)
+        Self::from(problem, wrong, ErrorSet::new(position, velocity, problem.numbers.len()), 0)
     }
 
     /// From the set at the start of period `index`.
-    pub(super) fn from(problem: &'a Problem<'a>, set: ErrorSet, index: usize) -> Self {
-        Self { problem, set, index, guess: vec![0.0; problem.arm.dof()], ready: Vec::new() }
+    pub(super) fn from(problem: &'a Problem<'a>, wrong: Wrong, set: ErrorSet, index: usize) -> Self {
+        Self { problem, wrong, set, index, guess: vec![0.0; problem.arm.dof()], ready: Vec::new() }
     }
 
     /// The linear map of the errors over the first period of the loop; `None` where D cannot be inverted.
@@ -68,7 +70,7 @@ impl<'a> Funnel<'a> {
         let problem = self.problem;
         let course = Course::new(problem.motion, self.time(self.index), problem.period, problem.slack());
         let half = vec![1e-3; 2 * problem.arm.dof()];
-        Some(self.set.frozen(problem, &Local::new(problem, course, half)?))
+        Some(self.set.frozen(problem, &self.wrong, &Local::new(problem, course, half)?))
     }
 
     fn time(&self, index: usize) -> f64 {
@@ -86,7 +88,7 @@ impl<'a> Funnel<'a> {
             }
             let Some(local) = self.ready.last() else { break };
             let mut set = self.set.clone();
-            match set.advance(self.problem, local, &self.guess) {
+            match set.advance(self.problem, &self.wrong, local, &self.guess) {
                 Err(Stop::Beyond(away)) => {
                     if let Some(joint) = (0..n).find(|&i| before[i] > self.problem.tube[i]) {
                         return Err(Lost::Tube { joint, time: self.time(self.index) });
@@ -100,11 +102,13 @@ impl<'a> Funnel<'a> {
         Err(Lost::Inertia { time: self.time(self.index) })
     }
 
-    /// The larger of `most` and of the bounds on |q_e|, then |q̇_e|, at the ends of the next periods. Nothing may be claimed of these where
-    /// the torque error grows with them.
-    pub(super) fn ahead(&mut self, mut most: Vec<f64>) -> Vec<f64> {
+    /// The largest of the bounds on |q_e|, then |q̇_e|, now and at the ends of the next periods. Nothing may be claimed of these: the
+    /// torque error grows with them.
+    pub(super) fn ahead(&self) -> Vec<f64> {
+        let mut next = self.clone();
+        let mut most = self.set.hull();
         for _ in 0..AHEAD {
-            let Ok(step) = self.step() else { break };
+            let Ok(step) = next.step() else { break };
             most.iter_mut().zip(step.hull).for_each(|(most, x)| *most = most.max(x));
         }
         most

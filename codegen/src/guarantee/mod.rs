@@ -1,6 +1,7 @@
 //! What is promised of the loop that runs: sampled, joint by joint, over time.
 
 mod course;
+mod declared;
 mod enclosure;
 mod follow;
 mod funnel;
@@ -15,5 +16,6 @@ mod statement;
 mod tests;
 
 pub use follow::Sampled;
-pub use sampled::{SampledLoop, Wrong};
+pub use problem::Wrong;
+pub use sampled::SampledLoop;
 pub use statement::{Kind, Statement};

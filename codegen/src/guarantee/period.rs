@@ -11,7 +11,7 @@ mod sample;
 mod switching;
 
 use super::local::Local;
-use super::problem::Problem;
+use super::problem::{Problem, Wrong};
 use super::set::ErrorSet;
 use crate::numerics::linalg::weighed;
 use load::Load;
@@ -43,14 +43,15 @@ pub(super) struct During {
 }
 
 impl ErrorSet {
-    /// The set after the period of `local`; `guess` is a guess of |q̈_e|.
+    /// The set after the period of `local`; `step` is what the torque of its start is wrong by, `guess` a guess of |q̈_e|.
     pub(super) fn advance(
         &mut self,
         problem: &Problem,
+        step: &Wrong,
         local: &Local,
         guess: &[f64],
     ) -> Result<During, Stop> {
-        let sample = Sample::new(problem, local, self)?;
+        let sample = Sample::new(problem, step, local, self)?;
         let torque = sample.torque(self);
         let (acceleration, load, turned) = sample.enclosed(self, guess)?;
         sample.moved(self, &load, &turned);
@@ -58,10 +59,10 @@ impl ErrorSet {
     }
 
     /// The linear map from sample to sample in the period of `local`, with the switching term as for this set.
-    pub(super) fn frozen(&self, problem: &Problem, local: &Local) -> Vec<Vec<f64>> {
+    pub(super) fn frozen(&self, problem: &Problem, step: &Wrong, local: &Local) -> Vec<Vec<f64>> {
         let n = problem.arm.dof();
         let (x, s) = (self.hull(), self.turned_hull(problem.gains).split_off(n));
-        let line = switched(problem, local, &x, &s).0;
+        let line = switched(problem, step, local, &x, &s).0;
         moved::held(problem, &product(&local.inverse, &control(problem, local, &line)))
     }
 }

@@ -39,10 +39,15 @@ pub(super) struct Problem<'a> {
     pub(super) initial: [&'a [f64]; 2],
     /// Half the width of the domain around the motion.
     pub(super) tube: Vec<f64>,
-    /// What the emitted model is wrong by at most, rounding included, by joint, N·m or N.
-    pub(super) torque_error: Vec<f64>,
-    /// What s is off by at most where it is computed.
-    pub(super) s_error: Vec<f64>,
+}
+
+/// What an emitted step is wrong by, by joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wrong {
+    /// Its torque, rounding included, N·m or N, against the arm as specified, u = 0.
+    pub torque: Vec<f64>,
+    /// s where it takes the side of it, rad/s or m/s.
+    pub s: Vec<f64>,
 }
 
 /// What a robust law subtracts: ρ times the side of s.

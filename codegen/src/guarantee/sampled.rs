@@ -1,8 +1,9 @@
 //! The sampled loop of a controller: its problem, and the errors that its bounds hold for.
 
+use super::declared::Declared;
 use super::follow::{Open, Sampled, follow};
 use super::funnel::Lost;
-use super::problem::{Problem, Switching, numbers};
+use super::problem::{Problem, Switching, Wrong, numbers};
 use super::repetition::Repetition;
 use crate::arm::{Arm, Uncertainty};
 use crate::bounds::{Bounds, Rates};
@@ -10,11 +11,6 @@ use crate::control::{Design, LoopErrors};
 use crate::motion::Motion;
 use crate::number::{decimal, short};
 use crate::numerics::linalg::weighed;
-
-/// How much larger than the errors seen the next ones are declared.
-const WIDER: f64 = 1.3;
-/// Most declarations.
-const ROUNDS: usize = 14;
 
 /// What the sampled loop is made of.
 #[derive(Clone, Copy)]
@@ -39,15 +35,6 @@ pub struct SampledLoop<'a> {
     pub wrong: &'a dyn Fn(&LoopErrors) -> Wrong,
 }
 
-/// What an emitted step is wrong by, by joint.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Wrong {
-    /// Its torque, rounding included, N·m or N, against the arm as specified, u = 0.
-    pub torque: Vec<f64>,
-    /// s where it takes the side of it, rad/s or m/s.
-    pub s: Vec<f64>,
-}
-
 impl SampledLoop<'_> {
     /// What is proved of the loop, or why nothing is.
     pub fn judge(&self) -> Result<Sampled, Vec<String>> {
@@ -58,47 +45,36 @@ impl SampledLoop<'_> {
         let pulled: Vec<f64> = p12.iter().map(|row| weighed(row, &declared)).collect();
         declared.extend(velocity.iter().zip(pulled).map(|(velocity, pulled)| 1.2 * velocity + 2.0 * pulled));
         let repetition = Repetition::of(self.motion, self.design.period);
-        for _ in 0..ROUNDS {
-            let problem = self.problem(&declared, &repetition);
-            match follow(&problem, &declared, self.settle) {
-                Ok(sampled) => return Ok(sampled),
-                Err(Open::Wider(hull)) => {
-                    for (declared, x) in declared.iter_mut().zip(hull) {
-                        if x > *declared {
-                            *declared = WIDER * x;
-                        }
-                    }
-                }
-                Err(Open::Long(periods)) => {
-                    return Err(vec![format!(
-                        "the motion takes {periods} periods, and more than 400000 are not followed: repeat a shorter one"
-                    )]);
-                }
-                Err(Open::Short) => {
-                    return Err(vec![format!(
-                        "the motion takes {} s, less than one control period of {} s, and does not end at rest",
-                        short(self.motion.duration()),
-                        short(self.design.period)
-                    )]);
-                }
-                Err(Open::Lost(lost)) => return Err(vec![self.lost(&lost)]),
-            }
-        }
-        Err(vec![format!(
-            "the errors grow without a bound that is found, beyond a speed error of {}",
-            list(&declared[n..])
-        )])
+        let wrong = |declared: &[f64]| (self.wrong)(&self.errors(declared));
+        let followed = follow(&self.problem(repetition), Declared::new(declared, &wrong), self.settle);
+        followed.map_err(|open| {
+            vec![match open {
+                Open::Long(periods) => format!(
+                    "the motion takes {periods} periods, and more than 400000 are not followed: repeat a shorter one"
+                ),
+                Open::Short => format!(
+                    "the motion takes {} s, less than one control period of {} s, and does not end at rest",
+                    short(self.motion.duration()),
+                    short(self.design.period)
+                ),
+                Open::Growing(declared) => format!(
+                    "the errors grow without a bound that is found, beyond a speed error of {}",
+                    list(&declared[n..])
+                ),
+                Open::Lost(lost) => self.lost(&lost),
+            }]
+        })
     }
 
-    fn problem<'b>(&'b self, declared: &[f64], repetition: &Option<Repetition>) -> Problem<'b> {
-        let design = self.design;
+    /// What the step's own error is bounded for, while |q_e|, then |q̇_e|, are at most `declared`.
+    fn errors(&self, declared: &[f64]) -> LoopErrors {
         let n = self.arm.dof();
-        let p12 = &design.gains.p12;
+        let p12 = &self.design.gains.p12;
         let (position, velocity) = declared.split_at(n);
         let pulled = |x: &[f64]| -> Vec<f64> { (0..n).map(|i| weighed(&p12[i], x)).collect() };
         let sum = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a + b).collect() };
         let own = Rates::of(self.motion);
-        let errors = LoopErrors {
+        LoopErrors {
             rates: Rates {
                 speed: sum(&own.speed, velocity),
                 reference_speed: sum(&own.speed, &pulled(position)),
@@ -106,8 +82,12 @@ impl SampledLoop<'_> {
             },
             position: position.to_vec(),
             s: sum(velocity, &pulled(position)),
-        };
-        let wrong = (self.wrong)(&errors);
+        }
+    }
+
+    fn problem(&self, repetition: Option<Repetition>) -> Problem<'_> {
+        let design = self.design;
+        let n = self.arm.dof();
         Problem {
             arm: self.arm,
             numbers: numbers(self.arm, self.uncertainty),
@@ -121,11 +101,9 @@ impl SampledLoop<'_> {
             switching: Switching::of(design, self.bounds),
             compensated: &design.coulomb,
             period: design.period,
-            repetition: repetition.clone(),
+            repetition,
             initial: self.initial,
             tube: self.tube.to_vec(),
-            torque_error: wrong.torque,
-            s_error: wrong.s,
         }
     }
 

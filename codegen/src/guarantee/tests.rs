@@ -2,9 +2,10 @@
 
 use gramforge_runtime::reference::Sinusoid;
 
-use super::follow::{Open, falls, follow};
+use super::declared::Declared;
+use super::follow::{Open, Sampled, falls, follow};
 use super::funnel::{Funnel, Lost};
-use super::problem::{Problem, Switching};
+use super::problem::{Problem, Switching, Wrong};
 use crate::arm::Arm;
 use crate::control::Gains;
 use crate::motion::Motion;
@@ -18,8 +19,8 @@ fn diagonal(x: [f64; 3]) -> Vec<Vec<f64>> {
     (0..3).map(|i| (0..3).map(|j| if i == j { x[i] } else { 0.0 }).collect()).collect()
 }
 
-/// The three-link arm at rest for 0.05 s under law (16), whose torque is off by up to `torque_error`.
-fn judged<T>(damping: f64, torque_error: f64, f: impl FnOnce(&Problem) -> T) -> T {
+/// The three-link arm at rest for 0.05 s under law (16).
+fn judged<T>(damping: f64, f: impl FnOnce(&Problem) -> T) -> T {
     let arm: Arm = three_link();
     let place = vec![0.2, 0.5, -1.4];
     let motion = Motion::Quintic { from: place.clone(), to: place, duration: 0.05 };
@@ -41,15 +42,22 @@ fn judged<T>(damping: f64, torque_error: f64, f: impl FnOnce(&Problem) -> T) -> 
         repetition: None,
         initial: [&START, &ZERO],
         tube: vec![0.01; 3],
-        torque_error: vec![torque_error; 3],
-        s_error: vec![0.0; 3],
     })
+}
+
+/// A step whose torque is off by up to `torque`, whatever the errors.
+fn off(torque: f64) -> Wrong {
+    Wrong { torque: vec![torque; 3], s: vec![0.0; 3] }
+}
+
+fn followed(problem: &Problem, torque: f64, settle: Option<f64>) -> Result<Sampled, Open> {
+    follow(problem, Declared::new(WIDE.to_vec(), &|_| off(torque)), settle)
 }
 
 #[test]
 fn a_loop_that_settles_is_held_for_ever() {
-    judged(100.0, 0.0, |problem| {
-        let sampled = follow(problem, &WIDE, Some(1.5)).expect("the errors die away");
+    judged(100.0, |problem| {
+        let sampled = followed(problem, 0.0, Some(1.5)).expect("the errors die away");
         assert_eq!(sampled.valid_until, None);
         let settled = sampled.settled_error.expect("for ever is long enough");
         assert!(settled.iter().zip(&sampled.reach).all(|(settled, reach)| settled < reach), "{settled:?}");
@@ -59,15 +67,15 @@ fn a_loop_that_settles_is_held_for_ever() {
 #[test]
 fn a_claim_ends_before_the_period_in_which_errors_may_leave_the_tube() {
     // The torque error pushes the joints out of the tube once the motion has ended.
-    judged(100.0, 12.0, |problem| {
-        let sampled = follow(problem, &WIDE, Some(1.5)).expect("the motion itself is followed");
+    judged(100.0, |problem| {
+        let sampled = followed(problem, 12.0, Some(1.5)).expect("the motion itself is followed");
         let end = sampled.valid_until.expect("not for ever");
         let (last, errors) = sampled.course.last().expect("periods");
         assert!(end >= 0.05 && end == *last, "{end} {last}");
         assert!(errors.iter().chain(&sampled.reach).all(|error| *error <= 0.01), "{errors:?}");
         assert_eq!(sampled.settled_error, None, "the claim ends before");
         // What comes next is lost, and stays lost however often it is tried.
-        let mut funnel = Funnel::new(problem);
+        let mut funnel = Funnel::new(problem, off(12.0));
         while funnel.step().is_ok() {}
         let (index, hull) = (funnel.index, funnel.set.hull());
         assert!((index as f64 * 0.001 - end).abs() < 1e-12);
@@ -80,16 +88,32 @@ fn a_claim_ends_before_the_period_in_which_errors_may_leave_the_tube() {
 
 #[test]
 fn a_loop_that_is_lost_during_the_motion_is_not_claimed() {
-    judged(100.0, 400.0, |problem| {
-        assert!(matches!(follow(problem, &WIDE, None), Err(Open::Lost(Lost::Tube { .. }))));
+    judged(100.0, |problem| {
+        assert!(matches!(followed(problem, 400.0, None), Err(Open::Lost(Lost::Tube { .. }))));
     });
 }
 
+/// A step that is wrong by more where the errors are larger: each torque counts with what holds where it is computed.
 #[test]
-fn errors_beyond_the_declared_ones_are_told() {
-    judged(100.0, 0.0, |problem| {
-        let narrow = [0.001; 6];
-        assert!(matches!(follow(problem, &narrow, None), Err(Open::Wider(hull)) if hull[0] >= 0.002));
+fn what_the_step_is_wrong_by_grows_with_the_errors() {
+    judged(100.0, |problem| {
+        let settle = Some(1.5);
+        let wrong = |most: &[f64]| off(if most[0] < START[0] { 0.0 } else { 5.0 * most[0] / START[0] });
+        // From bounds below the errors at the start.
+        let from = |bounds: [f64; 6]| follow(problem, Declared::new(bounds.to_vec(), &wrong), settle);
+        let grown = from([1e-4; 6]).expect("followed");
+        assert!(grown.torque_error[0] >= 5.0, "{:?}", grown.torque_error);
+        // No less than a step that is always wrong by as much as the start needs, no more than one by the most.
+        let [least, most] =
+            [5.0, grown.torque_error[0]].map(|by| followed(problem, by, settle).expect("followed"));
+        for i in 0..3 {
+            assert!(least.reach[i] <= grown.reach[i] && grown.reach[i] <= most.reach[i], "{:?}", grown.reach);
+        }
+        assert!(least.reach != most.reach);
+        // What never holds what it was made for.
+        let growing = |most: &[f64]| off(1e4 * most[0]);
+        let lost = follow(problem, Declared::new(vec![1e-4; 6], &growing), settle);
+        assert!(matches!(lost, Err(Open::Lost(_) | Open::Growing(_))), "{lost:?}");
     });
 }
 
@@ -105,14 +129,14 @@ fn only_errors_that_fall_have_a_time_to_settle() {
 /// A motion that moves on at its end is claimed for whole periods of it: of none, there is nothing to claim.
 #[test]
 fn a_motion_of_less_than_a_period_is_not_claimed() {
-    judged(100.0, 0.0, |problem| {
+    judged(100.0, |problem| {
         let moving = Motion::Sinusoids {
             offset: vec![0.2, 0.5, -1.4],
             terms: vec![vec![Sinusoid { amplitude: 0.1, frequency: 1.0, phase: 0.3 }], vec![], vec![]],
             duration: 0.0005,
         };
         assert!(!moving.rests());
-        let of = |motion| follow(&Problem { motion, ..problem.clone() }, &WIDE, Some(1.5));
+        let of = |motion| followed(&Problem { motion, ..problem.clone() }, 0.0, Some(1.5));
         assert_eq!(of(&moving), Err(Open::Short));
         // At rest the period that holds the motion is followed, and those after it.
         let place = vec![0.2, 0.5, -1.4];

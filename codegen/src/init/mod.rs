@@ -48,14 +48,28 @@ pub struct First {
     pub warnings: Vec<String>,
 }
 
-/// Times in which errors are to fall to 1/20, s: the first with which a promise can be kept is taken.
-pub const CONVERGENCE_TIMES: [f64; 3] = [1.0, 2.0, 4.0];
+/// What is asked of the controller.
+#[derive(Clone, Copy, Debug)]
+pub struct Trial {
+    /// Time in which errors are to fall to 1/20, s.
+    pub convergence_time: f64,
+    /// Largest position error by joint for which the model is bounded, rad or m.
+    pub tube: f64,
+}
 
-/// The first specification for `request`, with that convergence time, s.
+/// What is tried, one after the other: the first with which a promise can be kept is taken. The narrow tube comes first: over it the
+/// inertia of a light wrist can be bounded, and most errors stay inside.
+pub const TRIALS: [Trial; 3] = [
+    Trial { convergence_time: 1.0, tube: 0.02 },
+    Trial { convergence_time: 2.0, tube: 0.02 },
+    Trial { convergence_time: 4.0, tube: 0.05 },
+];
+
+/// The first specification for `request` that asks for `trial`.
 ///
 /// # Errors
 /// [`Error::Input`] with every fault of the robot file and of the request.
-pub fn first(request: &Request, convergence_time: f64) -> Result<First, Error> {
+pub fn first(request: &Request, trial: Trial) -> Result<First, Error> {
     let named = Named::alone("arm.urdf", &request.urdf);
     let surveyed = survey(&named)?;
     let mut tips = surveyed.tips;
@@ -72,7 +86,7 @@ pub fn first(request: &Request, convergence_time: f64) -> Result<First, Error> {
         armatures: Vec::new(),
         motion: None,
         law: request.law,
-        convergence_time,
+        trial,
     };
     let (arm, warnings) = alone(&page, request)?;
     page.armatures = arm.joints.iter().map(|joint| (joint.name.clone(), joint.armature)).collect();

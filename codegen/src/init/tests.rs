@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Example, Request, example, first, relative};
+use super::{Example, Request, TRIALS, example, first, relative};
 use crate::check::{Extent, checked};
 use crate::error::Error;
 use crate::load::parse;
@@ -21,7 +21,7 @@ fn request(law: Option<LawSpec>) -> Request {
 fn a_first_specification_passes_every_check_with_any_law() {
     let laws = [LawSpec::Exact, LawSpec::Report, LawSpec::Tight, LawSpec::Adaptive].map(Some);
     for law in laws.into_iter().chain([None]) {
-        let first = first(&request(law), 1.0).expect("a specification");
+        let first = first(&request(law), TRIALS[0]).expect("a specification");
         assert_eq!(first.loaded.spec.control.is_some(), law.is_some());
         checked(first.loaded, Extent::Whole).expect("no fault: the motion keeps the limits too");
     }
@@ -30,7 +30,7 @@ fn a_first_specification_passes_every_check_with_any_law() {
 #[test]
 fn a_tip_that_is_not_there_is_refused_with_those_that_are() {
     let asked = Request { tip: Some("tool9".into()), ..request(None) };
-    let Err(Error::Input(faults)) = first(&asked, 1.0) else { panic!("a link that is not there") };
+    let Err(Error::Input(faults)) = first(&asked, TRIALS[0]) else { panic!("a link that is not there") };
     assert!(faults[0].problem.contains("tool9") && faults[0].help.contains("--tip"), "{}", faults[0]);
 }
 

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::json;
 
-use super::FirstMotion;
+use super::{FirstMotion, Trial};
 use crate::spec::LawSpec;
 
 /// What stands on the page.
@@ -20,8 +20,7 @@ pub(super) struct Page {
     /// `None` for the arm alone.
     pub motion: Option<FirstMotion>,
     pub law: Option<LawSpec>,
-    /// s.
-    pub convergence_time: f64,
+    pub trial: Trial,
 }
 
 impl Page {
@@ -72,7 +71,11 @@ impl Page {
             motion.from, motion.to, motion.duration
         );
         out += "  // Where the model must be good: position errors around the motion, rad or m. Or \"workspace\".\n";
-        out += "  \"measure\": { \"tube\": { \"position_error\": 0.05 } },\n\n";
+        let _ = writeln!(
+            out,
+            "  \"measure\": {{ \"tube\": {{ \"position_error\": {:?} }} }},\n",
+            self.trial.tube
+        );
         if self.law == Some(LawSpec::Adaptive) {
             out += "  // The adaptive law learns with the exact model. Or { \"shared\": { \"functions\": N } }.\n";
             out += "  \"model\": \"exact\"";
@@ -104,7 +107,7 @@ impl Page {
         let _ = writeln!(
             out,
             "    \"design\": {{ \"convergence_time\": {:?}, \"period\": 0.001 }},",
-            self.convergence_time
+            self.trial.convergence_time
         );
         out += "    // How far from the motion the arm may be when it starts, rad or m.\n";
         out += "    \"initial_error\": { \"position\": 0.01 }\n";

@@ -11,8 +11,10 @@ use crate::guarantee::{Kind, Sampled};
 use crate::progress::Silent;
 use crate::spec::LawSpec;
 
-/// Halvings of a period that is too long.
+/// Halvings of a period that is too long, as long as the motion takes no more periods than this: no drive is sampled so often, and each
+/// halving doubles the work.
 const HALVINGS: u32 = 4;
+const PERIODS: f64 = 12_000.0;
 
 /// Whether the errors of the sampled loop can be followed.
 pub(super) fn follows(certified: &Certified, control: &Control) -> bool {
@@ -47,16 +49,23 @@ pub(super) fn requested(
     let sampled = known.and_then(|statement| statement.sampled.as_ref());
     if let (Some(period), None) = (request.period, sampled) {
         let shorter = |k: u32| two_digits(period / f64::from(1 << k));
-        let enough = |shorter: &f64| {
-            let request = GainRequest { period: Some(*shorter), ..request.clone() };
+        // A level of V that no gains hold at one period is not sought again at each: that search takes longest.
+        let unknown = || Err(Error::Internal("no level of V was sought".to_string()));
+        let enough = |k: u32, level: bool| {
+            let request = GainRequest { period: Some(shorter(k)), ..request.clone() };
             let control = Control { gains: GainSource::Requested(request.clone()), ..control.clone() };
-            // A level of V that no gains hold at one period is not sought again: that search takes longest.
-            let unknown = Err(Error::Internal("no level of V was sought".to_string()));
-            attempt(certified, &control, &request, unknown, means).is_ok()
+            let first = if level { Designed::made(certified, &control, means) } else { unknown() };
+            attempt(certified, &control, &request, first, means).is_ok()
         };
+        let duration = certified.checked.motion.as_ref().map_or(0.0, |motion| motion.duration());
+        let few = |k: &u32| duration / shorter(*k) <= PERIODS;
+        let most = (1..=HALVINGS).take_while(few).last().unwrap_or(1);
         // What the shortest one does not help, none does.
-        let helps = enough(&shorter(HALVINGS));
-        if let Some(shorter) = (1..=HALVINGS).map(shorter).find(|period| helps && enough(period)) {
+        let helps = enough(most, false);
+        let found = (1..=most).find(|&k| helps && enough(k, false));
+        if let Some(found) = found {
+            // A level may hold at a longer one.
+            let shorter = shorter((1..found).find(|&k| enough(k, true)).unwrap_or(found));
             let problem = format!("{period} s is too long: there are gains at {shorter} s");
             let help = "shorten it, widen the tube, or allow more time to converge";
             return Err(Error::input(file, "control.design.period", problem, help));

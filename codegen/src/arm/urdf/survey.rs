@@ -10,6 +10,8 @@ use crate::load::Named;
 
 /// Words in the names of links that stand for the end of an arm, the likeliest first.
 const ENDS: [&str; 8] = ["tool0", "tcp", "flange", "tool", "ee_link", "end_effector", "_ee", "hand"];
+/// Words in the names of joints, or of the links that they move, that stand for a part of a hand.
+const HANDS: [&str; 4] = ["finger", "grip", "jaw", "knuckle"];
 
 /// A URDF file as far as it must be known to choose the end of the arm.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,24 +68,33 @@ fn tips(robot: &Robot<'_>) -> Vec<Tip> {
         *children.entry(joint.parent).or_default() += 1;
     }
     let palms = palms(robot, &carrier);
+    let parts = robot.joints.iter().filter(|joint| of_a_hand(joint)).map(|joint| joint.name).collect();
     let ends = robot.links.iter().map(|link| link.name);
     let ends = ends.filter(|name| !children.contains_key(name) || palms.contains(name));
     let mut out: Vec<Tip> =
         ends.map(|link| tip(link, robot, &carrier)).filter(|tip| !tip.moving.is_empty()).collect();
     // Stable: of links that are equally likely the first of the file comes first.
-    out.sort_by_key(|tip| rank(tip, &palms));
+    out.sort_by_key(|tip| rank(tip, &palms, &parts));
     out
 }
 
-/// The likeliest end first: a name that says so, then a palm, then the longest chain without fingers.
-fn rank(tip: &Tip, palms: &BTreeSet<&str>) -> (bool, usize, bool, usize) {
+/// The likeliest end first: no part of a hand, then a name that says so, then a palm, then the longest chain. `parts` are the joints
+/// of hands.
+fn rank(tip: &Tip, palms: &BTreeSet<&str>, parts: &BTreeSet<&str>) -> (bool, usize, bool, usize) {
     let name = tip.link.to_lowercase();
-    let fingers = palms.iter().any(|palm| tip.link != *palm) && !palms.is_empty() && name.contains("finger");
+    let fingers = tip.moving.iter().any(|joint| parts.contains(joint.as_str()))
+        || (palms.iter().any(|palm| tip.link != *palm) && name.contains("finger"));
     let word = ENDS.iter().position(|word| name.contains(word)).unwrap_or(ENDS.len());
     (fingers, word, !palms.contains(tip.link.as_str()), usize::MAX - tip.moving.len())
 }
 
-/// Links that are moved, and that carry several branches with joints of their own: the palms of hands.
+/// Whether its name, or that of the link that it moves, says that a movable joint is a part of a hand.
+fn of_a_hand(joint: &Joint<'_>) -> bool {
+    let says = |name: &str| HANDS.iter().any(|word| name.to_lowercase().contains(word));
+    joint.kind != Kind::Fixed && (says(joint.name) || says(joint.child))
+}
+
+/// Links that are moved, and that carry several branches with joints of their own or the first joint of a hand: palms.
 fn palms<'a>(robot: &'a Robot<'a>, carrier: &BTreeMap<&str, &Joint<'_>>) -> BTreeSet<&'a str> {
     let mut branches: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for joint in robot.joints.iter().filter(|joint| joint.kind != Kind::Fixed) {
@@ -97,7 +108,12 @@ fn palms<'a>(robot: &'a Robot<'a>, carrier: &BTreeMap<&str, &Joint<'_>>) -> BTre
     }
     let moved = |link: &str| chain(link, robot, carrier).iter().any(|joint| joint.kind != Kind::Fixed);
     let several = |link: &&str| branches.get(link).is_some_and(|by| by.len() > 1) && moved(link);
-    robot.links.iter().map(|link| link.name).filter(several).collect()
+    let hand = |link: &str| {
+        robot.joints.iter().any(|joint| joint.parent == link && of_a_hand(joint))
+            && !chain(link, robot, carrier).iter().any(|joint| of_a_hand(joint))
+    };
+    let palm = |link: &&str| several(link) || (hand(link) && moved(link));
+    robot.links.iter().map(|link| link.name).filter(palm).collect()
 }
 
 /// The joints between the root and `link`, nearest first; no more than there are, whatever loops the file has.
@@ -169,6 +185,21 @@ mod tests {
         );
         let tips: Vec<&str> = survey.tips.iter().map(|tip| tip.link.as_str()).collect();
         assert_eq!(tips, ["palm", "left_finger", "right_finger"]);
+    }
+
+    #[test]
+    fn a_hand_of_one_joint_is_held_too() {
+        let robot = [
+            ("joint1", "revolute", "base", "one"),
+            ("joint2", "revolute", "one", "two"),
+            ("jointGripper", "revolute", "two", "gripperMover"),
+        ];
+        let survey = survey(&named(&robot)).expect("a robot");
+        let first = &survey.tips[0];
+        assert_eq!(first.link, "two");
+        assert_eq!(first.branches, ["jointGripper"]);
+        let tips: Vec<&str> = survey.tips.iter().map(|tip| tip.link.as_str()).collect();
+        assert_eq!(tips, ["two", "gripperMover"]);
     }
 
     #[test]

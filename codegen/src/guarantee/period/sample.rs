@@ -1,7 +1,7 @@
 //! The set at a sample: what follows from it before the period begins.
 
 use super::super::local::Local;
-use super::super::problem::Problem;
+use super::super::problem::{Problem, Wrong};
 use super::super::set::{ErrorSet, Image};
 use super::Stop;
 use super::numbers::{ROUNDED, UP, product, scale};
@@ -11,6 +11,8 @@ use crate::numerics::linalg::weighed;
 /// The set at a sample and what follows from it alone.
 pub(super) struct Sample<'a> {
     pub(super) problem: &'a Problem<'a>,
+    /// What the step is wrong by while the errors are no larger than those of the set.
+    step: &'a Wrong,
     pub(super) local: &'a Local,
     pub(super) n: usize,
     /// Bounds on |q_e| and |v|, one list.
@@ -32,7 +34,12 @@ pub(super) struct Sample<'a> {
 }
 
 impl<'a> Sample<'a> {
-    pub(super) fn new(problem: &'a Problem<'a>, local: &'a Local, set: &ErrorSet) -> Result<Self, Stop> {
+    pub(super) fn new(
+        problem: &'a Problem<'a>,
+        step: &'a Wrong,
+        local: &'a Local,
+        set: &ErrorSet,
+    ) -> Result<Self, Stop> {
         let n = problem.arm.dof();
         let x = set.hull();
         let s = set.turned_hull(problem.gains).split_off(n);
@@ -41,7 +48,7 @@ impl<'a> Sample<'a> {
         if lambda > 1.0 {
             return Err(Stop::Beyond(away));
         }
-        let (line, off_line) = switched(problem, local, &x, &s);
+        let (line, off_line) = switched(problem, step, local, &x, &s);
         let control = control(problem, local, &line);
         let pushed = pushed(problem, local, set.image(&product(&local.inverse, &control)));
         let coriolis = &local.arm.coriolis;
@@ -51,13 +58,27 @@ impl<'a> Sample<'a> {
             let each = problem.numbers.iter().zip(&local.added);
             each.map(|(number, added)| number.most() * added.enclosure.torque.change(i, &away, lambda)).sum()
         };
-        let wrong = (0..n).map(|i| problem.torque_error[i] + off_line[i] + turned(i) + added(i)).collect();
+        let wrong = (0..n).map(|i| step.torque[i] + off_line[i] + turned(i) + added(i)).collect();
         let course = &local.course;
         let fed = (0..n)
             .map(|i| compensation(problem.compensated[i], course.target.qd[i], course.apart[n + i]))
             .collect();
         let pushed_size = pushed.sizes();
-        Ok(Self { problem, local, n, x, away, control, pushed, pushed_size, wrong, line, off_line, fed })
+        Ok(Self {
+            problem,
+            step,
+            local,
+            n,
+            x,
+            away,
+            control,
+            pushed,
+            pushed_size,
+            wrong,
+            line,
+            off_line,
+            fed,
+        })
     }
 
     /// Range of the torque that the law asks for.
@@ -88,7 +109,7 @@ impl<'a> Sample<'a> {
                     + torque.beyond(i, lambda)
                     + weighed(torque.slopes(i), &local.course.apart)
                     + self.off_line[i]
-                    + problem.torque_error[i]
+                    + self.step.torque[i]
                     + ROUNDED * (middle.abs() + weighed(&rows[i], &self.x));
                 let [low, high] = self.fed[i];
                 [middle + low - half, middle + high + half]

@@ -1,7 +1,7 @@
 //! The switching term as a line with an error, and the friction that the command compensates.
 
 use super::super::local::Local;
-use super::super::problem::{Magnitudes, Problem, Switching};
+use super::super::problem::{Magnitudes, Problem, Switching, Wrong};
 use super::numbers::{ROUNDED, UP};
 use crate::numerics::linalg::weighed;
 
@@ -9,7 +9,13 @@ use crate::numerics::linalg::weighed;
 const STEEPEST: f64 = 0.5;
 
 /// The slope of the line that stands for the switching term of each joint, N·m·s/rad, and what the term differs from it by, N·m.
-pub(super) fn switched(problem: &Problem, local: &Local, x: &[f64], s: &[f64]) -> (Vec<f64>, Vec<f64>) {
+pub(super) fn switched(
+    problem: &Problem,
+    step: &Wrong,
+    local: &Local,
+    x: &[f64],
+    s: &[f64],
+) -> (Vec<f64>, Vec<f64>) {
     let n = s.len();
     let Switching::Robust(gain, layer) = problem.switching else { return (vec![0.0; n], vec![0.0; n]) };
     let target = &local.course.target;
@@ -40,7 +46,7 @@ pub(super) fn switched(problem: &Problem, local: &Local, x: &[f64], s: &[f64]) -
             (1.0 - slope * phi).abs().max((1.0 - slope * most).abs())
         };
         let share = if phi > 0.0 { (s[i] / phi).min(1.0) } else { 1.0 };
-        let error = problem.s_error[i] * if phi > 0.0 { 1.0 / phi } else { slope };
+        let error = step.s[i] * if phi > 0.0 { 1.0 / phi } else { slope };
         out.0.push(if rho > 0.0 { rho * slope } else { 0.0 });
         out.1.push(UP * (rho * (off + error + ROUNDED) + spread * (share + error)));
     }

@@ -65,6 +65,8 @@ impl Package {
         let root = root();
         let workspace = fs::read_to_string(root.join("Cargo.toml")).expect("the workspace's manifest");
         let profiles = workspace.find("[profile").map_or("", |at| &workspace[at..]);
+        let own = "[profile.dev.package.gramforge]\n";
+        let profiles = profiles.replace(&format!("{own}opt-level = 3\n"), "");
         let crates = root.display();
         package.write(
             "Cargo.toml",
@@ -72,8 +74,7 @@ impl Package {
                 "[package]\nname = {name:?}\nedition = \"2024\"\n\n[workspace]\n\n\
                  [dependencies]\ngramforge-runtime = {{ path = \"{crates}/runtime\", features = [\"std\"] }}\n\n\
                  [build-dependencies]\ngramforge = {{ path = \"{crates}/codegen\" }}\n\n\
-                 [lints.rust]\nwarnings = \"deny\"\n\n{profiles}\n\
-                 [profile.dev.package.gramforge]\nopt-level = 0\ndebug = false\n"
+                 [lints.rust]\nwarnings = \"deny\"\n\n{profiles}\n{own}opt-level = 0\ndebug = false\n"
             ),
         );
         let lock = fs::read_to_string(root.join("Cargo.lock")).expect("the workspace's lock file");
