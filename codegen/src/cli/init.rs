@@ -247,7 +247,10 @@ fn about(first: &First) -> String {
             crate::text::listed(&bare)
         );
     }
-    out += &format!("Motion: {:?} s, about the middle of the joints' ranges\n", first.motion.duration);
+    out += &format!(
+        "Motion: {:?} s, half a radian or less by joint, at rest at both ends\n",
+        first.motion.duration
+    );
     out
 }
 

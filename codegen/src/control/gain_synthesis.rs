@@ -183,12 +183,14 @@ fn too_narrow(
             let (_, judged) = stage.judge(&nearest.tuning)?;
             let most = &judged.guarantee.initial_error_max;
             let less = most.iter().map(|e| short(e * 0.9995)).collect::<Vec<_>>().join(", ");
+            let help = match most.iter().all(|e| *e > 0.0) {
+                true => format!("or take an initial position error of at most ({less})"),
+                false => "shorten the period, or write the armature of the drives".to_string(),
+            };
             faults.push(
                 "control.design",
                 format!("cannot be met: errors may reach {}, beyond the measure", list(errors)),
-                format!(
-                    "widen `measure.tube.position_error`, or take an initial position error of at most ({less})"
-                ),
+                format!("widen `measure.tube.position_error`, {help}"),
             );
         }
     }
