@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::cost::Costs;
 use super::fitting::{Form, LARGE, Table};
-use super::squares::Squares;
+use super::squares::{Squares, independent};
 use crate::lagrangian::{Function, Lagrangian};
 use crate::reduction::CandidateFunction;
 
@@ -129,7 +129,11 @@ fn shorter(table: &Table, form: &Form) -> Option<Vec<Arc<Form>>> {
     let &[(m, sign)] = form.members.as_slice() else { return None };
     let columns: Vec<&Vec<f64>> = form.kept.iter().map(|&f| &table.functions[f]).collect();
     let values: Vec<f64> = table.coefficients[m].iter().map(|alpha| sign * alpha).collect();
-    let squares = Squares::new(&columns, &values)?;
+    let Some(squares) = Squares::new(&columns, &values) else {
+        let kept: Vec<usize> = independent(&columns).into_iter().map(|i| form.kept[i]).collect();
+        let fewer = kept.len() < form.kept.len();
+        return fewer.then(|| vec![Arc::new(Form::fitted(table, form.members.clone(), kept, None))]);
+    };
     let without = |gone: usize| {
         let rest = || (0..form.kept.len()).filter(move |&i| i != gone);
         let parameters = squares.without(gone);

@@ -1,7 +1,7 @@
 //! Least squares over functions of which one after the other goes, by rank-one updates.
 
 use crate::numerics::lu::Lu;
-use crate::numerics::vector::dot;
+use crate::numerics::vector::{add_scaled, dot};
 
 /// A fit over the functions that are left, with the inverse of their Gram matrix.
 pub(super) struct Squares {
@@ -9,6 +9,30 @@ pub(super) struct Squares {
     /// By function; 0 for those that are gone.
     pub parameters: Vec<f64>,
     alive: Vec<bool>,
+}
+
+/// A column of which less than this fraction is new depends on those before it: the inverse of a Gram matrix loses twice these digits.
+const DEPENDENT: f64 = 1e-6;
+
+/// The columns that do not depend on those before them.
+pub(super) fn independent(columns: &[&Vec<f64>]) -> Vec<usize> {
+    let (mut directions, mut out) = (Vec::<Vec<f64>>::new(), Vec::new());
+    for (i, column) in columns.iter().enumerate() {
+        let mut rest = (*column).clone();
+        for _ in 0..2 {
+            for direction in &directions {
+                let along = dot(direction, &rest);
+                add_scaled(&mut rest, -along, direction);
+            }
+        }
+        let size = libm::sqrt(dot(&rest, &rest));
+        if size > DEPENDENT * libm::sqrt(dot(column, column)) {
+            rest.iter_mut().for_each(|x| *x /= size);
+            directions.push(rest);
+            out.push(i);
+        }
+    }
+    out
 }
 
 impl Squares {
@@ -59,7 +83,17 @@ impl Squares {
 
 #[cfg(test)]
 mod tests {
-    use super::Squares;
+    use super::{Squares, independent};
+
+    #[test]
+    fn a_column_that_others_make_up_is_left_out() {
+        let (a, b) = (vec![1.0, 2.0, 3.0, 5.0], vec![1.0, -1.0, 0.0, 1e3]);
+        let sum: Vec<f64> = a.iter().zip(&b).map(|(a, b)| 3.0 * a - b + 1e-9 * a * b).collect();
+        let c = vec![0.0, 1.0, 0.0, 0.0];
+        let columns = [&a, &b, &sum, &c];
+        assert!(Squares::new(&[&a, &b, &a.iter().map(|x| 2.0 * x).collect()], &c).is_none());
+        assert_eq!(independent(&columns), [0, 1, 3]);
+    }
 
     /// One function after the other is taken away; each time the fit is that made anew without it.
     #[test]

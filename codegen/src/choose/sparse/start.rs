@@ -2,7 +2,7 @@
 
 use super::STRICTEST;
 use super::fitting::{Form, Table};
-use super::squares::Squares;
+use super::squares::{Squares, independent};
 use crate::lagrangian::Lagrangian;
 
 /// What one coefficient may add to the error, as a fraction of the first step's.
@@ -34,8 +34,16 @@ pub(super) fn forms(lagrangian: &Lagrangian, table: &Table, m: usize) -> Form {
 /// residual stays small; the parameters left.
 fn eliminated(table: &Table, m: usize, kept: &mut Vec<usize>) -> Option<Vec<f64>> {
     let alpha = &table.coefficients[m];
-    let columns: Vec<&Vec<f64>> = kept.iter().map(|&f| &table.functions[f]).collect();
-    let mut squares = Squares::new(&columns, alpha)?;
+    let of = |kept: &[usize]| -> Vec<&Vec<f64>> { kept.iter().map(|&f| &table.functions[f]).collect() };
+    let mut columns = of(kept);
+    let mut squares = match Squares::new(&columns, alpha) {
+        Some(squares) => squares,
+        None => {
+            *kept = independent(&columns).into_iter().map(|i| kept[i]).collect();
+            columns = of(kept);
+            Squares::new(&columns, alpha)?
+        }
+    };
     let most = PART * STRICTEST / table.weights[m];
     while let Some(out) = squares.left().min_by(|&a, &b| squares.loss(a).total_cmp(&squares.loss(b))) {
         let new = squares.without(out);
