@@ -9,6 +9,7 @@ const WIDER: f64 = 1.3;
 const MOST: usize = 24;
 
 /// Bounds on |q_e|, then |q̇_e|, at a sample, and what the step is wrong by while they hold.
+#[derive(Clone)]
 pub(super) struct Declared<'a> {
     bounds: Vec<f64>,
     /// What the step is wrong by for other bounds.
@@ -26,7 +27,7 @@ impl<'a> Declared<'a> {
         (self.wrong)(&self.bounds)
     }
 
-    pub(super) fn hold(&self, hull: &[f64]) -> bool {
+    fn hold(&self, hull: &[f64]) -> bool {
         hull.iter().zip(&self.bounds).all(|(x, bound)| x <= bound)
     }
 

@@ -214,15 +214,17 @@ impl<'a> Claim<'a> {
     /// Whether some box around the set of `settled` holds the errors again after a number of periods at rest.
     fn returns(&mut self, settled: &Funnel<'a>) -> bool {
         let (mut funnel, around) = self.boxed(settled, ROOM, settled.index);
+        let mut declared = self.declared.clone();
         let mut steps = Vec::new();
         for k in 0..RETURN {
-            if !self.declared.hold(&funnel.set.hull()) {
+            if declared.widen(&mut funnel).is_err() {
                 return false;
             }
             let Ok(step) = funnel.step() else { return false };
             steps.push(step);
             if k % 8 == 7 && self.holds(&around, &funnel.set) {
                 steps.iter().for_each(|step| self.count_for_ever(step));
+                self.out.torque_error = funnel.wrong.torque;
                 return true;
             }
         }
@@ -233,11 +235,12 @@ impl<'a> Claim<'a> {
     /// next.
     fn repeat(&mut self, settled: &Funnel<'a>, offset: f64, periods: usize, room: f64) -> bool {
         let (mut funnel, around) = self.boxed(settled, room, 0);
+        let mut declared = self.declared.clone();
         let duration = self.problem.motion.duration();
         self.out.valid_until = Some(offset.min(duration));
         let mut steps = Vec::new();
         for _ in 0..periods {
-            if !self.declared.hold(&funnel.set.hull()) {
+            if declared.widen(&mut funnel).is_err() {
                 return false;
             }
             let Ok(step) = funnel.step() else { return false };
@@ -247,6 +250,7 @@ impl<'a> Claim<'a> {
             return false;
         }
         self.out.valid_until = Some(duration);
+        self.out.torque_error = funnel.wrong.torque;
         for step in &steps {
             self.count_for_ever(step);
         }
