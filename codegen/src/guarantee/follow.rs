@@ -41,9 +41,9 @@ pub struct Sampled {
     pub valid_until: Option<f64>,
     /// Range of the torque that the law asks for, by joint, N·m or N.
     pub torque: Vec<[f64; 2]>,
-    /// What the emitted step was allowed to be wrong by at any sample, rounding included, by joint, N·m or N: its torque less that of
-    /// the law about the arm as specified.
-    pub torque_error: Vec<f64>,
+    /// What the emitted step was allowed to be wrong by, rounding included, from each time on, s, by joint, N·m or N: its torque less
+    /// that of the law about the arm as specified.
+    pub torque_error: Vec<(f64, Vec<f64>)>,
     /// When the torque comes nearest to its limits, by joint, s.
     pub torque_time: Vec<f64>,
     /// Bound by joint on |q_e| during each period that was followed, with its end, s.
@@ -134,7 +134,7 @@ impl<'a> Claim<'a> {
             speed_error: vec![0.0; n],
             valid_until: None,
             torque: vec![[f64::INFINITY, f64::NEG_INFINITY]; n],
-            torque_error: vec![0.0; n],
+            torque_error: Vec::new(),
             torque_time: vec![0.0; n],
             course: Vec::new(),
         };
@@ -151,7 +151,10 @@ impl<'a> Claim<'a> {
     /// Makes what the next step is wrong by hold for the set.
     fn admit(&mut self, funnel: &mut Funnel) -> Result<(), Open> {
         self.declared.widen(funnel).map_err(Open::Growing)?;
-        self.out.torque_error.clone_from(&funnel.wrong.torque);
+        if self.out.torque_error.last().is_none_or(|(_, last)| *last != funnel.wrong.torque) {
+            let time = funnel.index as f64 * self.problem.period;
+            self.out.torque_error.push((time, funnel.wrong.torque.clone()));
+        }
         Ok(())
     }
 
@@ -224,7 +227,6 @@ impl<'a> Claim<'a> {
             steps.push(step);
             if k % 8 == 7 && self.holds(&around, &funnel.set) {
                 steps.iter().for_each(|step| self.count_for_ever(step));
-                self.out.torque_error = funnel.wrong.torque;
                 return true;
             }
         }
@@ -250,7 +252,6 @@ impl<'a> Claim<'a> {
             return false;
         }
         self.out.valid_until = Some(duration);
-        self.out.torque_error = funnel.wrong.torque;
         for step in &steps {
             self.count_for_ever(step);
         }

@@ -38,9 +38,9 @@ pub struct Loop {
     tape: Tape<f64>,
     model: Tape<f64>,
     p12: Row,
-    /// By how much the step may be off, N·m or N; zero for an exact model in f64, whose rounding the plant could not tell from its
+    /// By how much the step may be off at each sample, N·m or N; none for an exact model in f64, whose rounding the plant could not tell from its
     /// own. In f32 the step is computed in f64 here, and what it would round by is added.
-    pub push: Row,
+    pub push: Vec<Row>,
 }
 
 /// What a run starts from, drives and is pushed by.
@@ -130,7 +130,13 @@ impl Loop {
                 .collect();
         let p12: Vec<f64> = (0..n).map(|i| design.gains.p12[i][i]).collect();
         let precise = generation.reduced().is_exact() && generation.spec().emit.scalar == ScalarSpec::F64;
-        let push = if precise { row(&[]) } else { row(&promised.torque_error) };
+        // The bound that held at each sample, and not a later one.
+        let pushed = |k: usize| {
+            let time = k as f64 * period + 1e-9 * period;
+            let held = promised.torque_error.iter().take_while(|(from, _)| *from <= time).last();
+            held.map_or(row(&[]), |(_, torque)| row(torque))
+        };
+        let push = if precise { Vec::new() } else { (0..periods).map(pushed).collect() };
         Self {
             tape: Tape::new(&generation.step().expect("a step").code),
             model: Tape::new(generation.code()),
@@ -208,18 +214,16 @@ impl Loop {
                 });
             }
         }
-        if self.push == row(&[]) {
-            return torque;
-        }
+        let Some(push) = self.push.get(k) else { return torque };
         let error = self.model_error(k, q, qd);
         for i in 0..self.n {
-            found.model_error = found.model_error.max(error[i].abs() / self.push[i]);
-            if error[i].is_nan() || error[i].abs() > self.push[i] * (1.0 + 1e-9) {
+            found.model_error = found.model_error.max(error[i].abs() / push[i]);
+            if error[i].is_nan() || error[i].abs() > push[i] * (1.0 + 1e-9) {
                 found.broken.get_or_insert_with(|| {
                     format!("the model is wrong by {} at joint {}, period {k}", error[i], i + 1)
                 });
             }
-            torque[i] += f64::from(attack.sides[k][i]) * self.push[i] - error[i];
+            torque[i] += f64::from(attack.sides[k][i]) * push[i] - error[i];
         }
         torque
     }
