@@ -74,7 +74,7 @@ impl Package {
                 "[package]\nname = {name:?}\nedition = \"2024\"\n\n[workspace]\n\n\
                  [dependencies]\ngramforge-runtime = {{ path = \"{crates}/runtime\", features = [\"std\"] }}\n\n\
                  [build-dependencies]\ngramforge = {{ path = \"{crates}/codegen\" }}\n\n\
-                 [lints.rust]\nwarnings = \"deny\"\n\n{profiles}\n{own}opt-level = 0\ndebug = false\n"
+                 [lints.rust]\nwarnings = \"deny\"\n\n{profiles}\n{own}opt-level = 1\ndebug = false\n"
             ),
         );
         let lock = fs::read_to_string(root.join("Cargo.lock")).expect("the workspace's lock file");
