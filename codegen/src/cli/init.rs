@@ -165,24 +165,27 @@ fn tried(request: &Request) -> Result<(First, String), Error> {
     last.ok_or_else(|| Error::Internal("no specification was tried".into()))
 }
 
-/// What one trial leaves for the next: the model and its bounds, in a folder that goes with it.
+/// What one trial leaves for the next: the model and its bounds, in a folder that goes with it. Nothing is kept where the folder is
+/// there already: what lies in it may be another's.
 struct Kept {
-    folder: PathBuf,
+    folder: Option<PathBuf>,
     cache: Option<Cache>,
 }
 
 impl Kept {
     fn new() -> Self {
         let folder = std::env::temp_dir().join(format!("gramforge-init-{}", std::process::id()));
-        let cache = Cache::below(&folder);
-        Self { folder, cache }
+        let folder = fs::create_dir(&folder).is_ok().then_some(folder);
+        Self { cache: folder.as_deref().and_then(Cache::below), folder }
     }
 }
 
 impl Drop for Kept {
     fn drop(&mut self) {
-        // Nothing depends on it: the folder may never have been made.
-        let _ = fs::remove_dir_all(&self.folder);
+        if let Some(folder) = &self.folder {
+            // Nothing depends on it.
+            let _ = fs::remove_dir_all(folder);
+        }
     }
 }
 

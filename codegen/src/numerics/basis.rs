@@ -24,6 +24,11 @@ impl Basis {
 
     /// As [`Basis::new`], of columns that nobody else needs.
     pub fn of(columns: Vec<Vec<f64>>) -> Self {
+        Self::apart(columns, DEPENDENT)
+    }
+
+    /// The same, where a column of which no more than the fraction `dependent` is new depends on those before it.
+    pub fn apart(columns: Vec<Vec<f64>>, dependent: f64) -> Self {
         let mut out = Self { directions: Vec::new(), columns: Vec::new(), count: columns.len() };
         for (index, mut vector) in columns.into_iter().enumerate() {
             let points = vector.len() as f64;
@@ -37,7 +42,7 @@ impl Basis {
                 }
             }
             let size = libm::sqrt(dot(&vector, &vector) / points);
-            if size <= DEPENDENT * libm::sqrt(square / points) {
+            if size <= dependent * libm::sqrt(square / points) {
                 continue;
             }
             vector.iter_mut().for_each(|x| *x /= size);
@@ -46,6 +51,11 @@ impl Basis {
             out.columns.push((index, components));
         }
         out
+    }
+
+    /// The columns that do not depend on those before them, ascending.
+    pub fn independent(&self) -> Vec<usize> {
+        self.columns.iter().map(|(index, _)| *index).collect()
     }
 
     /// Turns parameters of the directions into parameters of the columns; dependent columns get 0.

@@ -11,9 +11,9 @@ use crate::guarantee::{Kind, Sampled};
 use crate::progress::Silent;
 use crate::spec::LawSpec;
 
-/// Halvings of a period that is too long, as long as the motion takes no more periods than this: no drive is sampled so often, and each
-/// halving doubles the work.
+/// Most halvings of a period that is too long.
 const HALVINGS: u32 = 4;
+/// Most periods of the motion after those, unless one halving takes more: each halving doubles the work.
 const PERIODS: f64 = 12_000.0;
 
 /// Whether the errors of the sampled loop can be followed.
@@ -61,9 +61,8 @@ pub(super) fn requested(
         let few = |k: &u32| duration / shorter(*k) <= PERIODS;
         let most = (1..=HALVINGS).take_while(few).last().unwrap_or(1);
         // What the shortest one does not help, none does.
-        let helps = enough(most, false);
-        let found = (1..=most).find(|&k| helps && enough(k, false));
-        if let Some(found) = found {
+        if enough(most, false) {
+            let found = (1..most).find(|&k| enough(k, false)).unwrap_or(most);
             // A level may hold at a longer one.
             let shorter = shorter((1..found).find(|&k| enough(k, true)).unwrap_or(found));
             let problem = format!("{period} s is too long: there are gains at {shorter} s");

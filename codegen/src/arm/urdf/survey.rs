@@ -11,7 +11,9 @@ use crate::load::Named;
 /// Words in the names of links that stand for the end of an arm, the likeliest first.
 const ENDS: [&str; 8] = ["tool0", "tcp", "flange", "tool", "ee_link", "end_effector", "_ee", "hand"];
 /// Words in the names of joints, or of the links that they move, that stand for a part of a hand.
-const HANDS: [&str; 4] = ["finger", "grip", "jaw", "knuckle"];
+const FINGERS: [&str; 3] = ["finger", "jaw", "knuckle"];
+/// The same in the names of joints alone: the last joint of a wrist may move a link that is called gripper.
+const HAND: &str = "grip";
 
 /// A URDF file as far as it must be known to choose the end of the arm.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -90,8 +92,9 @@ fn rank(tip: &Tip, palms: &BTreeSet<&str>, parts: &BTreeSet<&str>) -> (bool, usi
 
 /// Whether its name, or that of the link that it moves, says that a movable joint is a part of a hand.
 fn of_a_hand(joint: &Joint<'_>) -> bool {
-    let says = |name: &str| HANDS.iter().any(|word| name.to_lowercase().contains(word));
-    joint.kind != Kind::Fixed && (says(joint.name) || says(joint.child))
+    let [name, child] = [joint.name, joint.child].map(str::to_lowercase);
+    let finger = FINGERS.iter().any(|word| name.contains(word) || child.contains(word));
+    joint.kind != Kind::Fixed && (finger || name.contains(HAND))
 }
 
 /// Links that are moved, and that carry several branches with joints of their own or the first joint of a hand: palms.
@@ -200,6 +203,19 @@ mod tests {
         assert_eq!(first.branches, ["jointGripper"]);
         let tips: Vec<&str> = survey.tips.iter().map(|tip| tip.link.as_str()).collect();
         assert_eq!(tips, ["two", "gripperMover"]);
+    }
+
+    #[test]
+    fn a_wrist_that_turns_the_gripper_is_of_the_arm() {
+        let robot = [
+            ("shoulder", "revolute", "base", "upper"),
+            ("wrist_roll", "revolute", "upper", "gripper_link"),
+            ("gripper", "revolute", "gripper_link", "moving_jaw"),
+        ];
+        let survey = survey(&named(&robot)).expect("a robot");
+        let first = &survey.tips[0];
+        assert_eq!(first.link, "gripper_link");
+        assert_eq!((first.moving.len(), first.branches.as_slice()), (2, &["gripper".to_string()][..]));
     }
 
     #[test]

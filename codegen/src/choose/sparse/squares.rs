@@ -1,7 +1,8 @@
 //! Least squares over functions of which one after the other goes, by rank-one updates.
 
+use crate::numerics::basis::Basis;
 use crate::numerics::lu::Lu;
-use crate::numerics::vector::{add_scaled, dot};
+use crate::numerics::vector::dot;
 
 /// A fit over the functions that are left, with the inverse of their Gram matrix.
 pub(super) struct Squares {
@@ -16,23 +17,7 @@ const DEPENDENT: f64 = 1e-6;
 
 /// The columns that do not depend on those before them.
 pub(super) fn independent(columns: &[&Vec<f64>]) -> Vec<usize> {
-    let (mut directions, mut out) = (Vec::<Vec<f64>>::new(), Vec::new());
-    for (i, column) in columns.iter().enumerate() {
-        let mut rest = (*column).clone();
-        for _ in 0..2 {
-            for direction in &directions {
-                let along = dot(direction, &rest);
-                add_scaled(&mut rest, -along, direction);
-            }
-        }
-        let size = libm::sqrt(dot(&rest, &rest));
-        if size > DEPENDENT * libm::sqrt(dot(column, column)) {
-            rest.iter_mut().for_each(|x| *x /= size);
-            directions.push(rest);
-            out.push(i);
-        }
-    }
-    out
+    Basis::apart(columns.iter().map(|column| (*column).clone()).collect(), DEPENDENT).independent()
 }
 
 impl Squares {
