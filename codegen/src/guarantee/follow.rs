@@ -1,21 +1,16 @@
 //! The whole claim: along the motion, and after it for as long as it holds.
 
-use nalgebra::{DMatrix, Schur};
-
 use super::declared::Declared;
 use super::funnel::{Funnel, Lost, Step};
 use super::problem::Problem;
 use super::set::ErrorSet;
+use super::settling::settling;
 use crate::bounds::{down, six_digits_up};
 
 /// Most periods that are followed one by one.
 const MOST: f64 = 4e5;
 /// Most periods after the motion in which the errors are to settle.
 const LATE: f64 = 10_000.0;
-/// Time constants of the slowest error after which it counts as settled.
-const SETTLED: f64 = 8.0;
-/// Iterations that each eigenvalue may take; a few are enough where they are found at all.
-const MOST_ITERATIONS: usize = 100;
 /// How much larger than the set a box is that is to hold for ever.
 const ROOM: f64 = 1.05;
 /// The same of a box that is to hold after a repetition: the errors come back into it only as fast as they die away.
@@ -41,8 +36,8 @@ pub struct Sampled {
     pub valid_until: Option<f64>,
     /// Range of the torque that the law asks for, by joint, N·m or N.
     pub torque: Vec<[f64; 2]>,
-    /// What the emitted step was allowed to be wrong by, rounding included, from each time on, s, by joint, N·m or N: its torque less
-    /// that of the law about the arm as specified.
+    /// What the emitted step is allowed to be wrong by, rounding included, at least, from each time on, s, by joint, N·m or N: its torque
+    /// less that of the law about the arm as specified.
     pub torque_error: Vec<(f64, Vec<f64>)>,
     /// When the torque comes nearest to its limits, by joint, s.
     pub torque_time: Vec<f64>,
@@ -284,27 +279,4 @@ impl<'a> Claim<'a> {
         }
         self.out
     }
-}
-
-/// The time in which the slowest error of the loop that is frozen at the start falls to e⁻⁸ of itself, s; the duration of the motion
-/// where none falls. An estimate: it says from when on errors are counted, and the count itself is a bound.
-fn settling(problem: &Problem, funnel: &Funnel) -> f64 {
-    let Some(map) = funnel.frozen() else { return problem.motion.duration() };
-    let n = map.len();
-    let matrix = DMatrix::from_fn(n, n, |i, j| map[i][j]);
-    if !matrix.iter().all(|entry| entry.is_finite()) {
-        return problem.motion.duration();
-    }
-    // Of numbers of very different sizes the iteration may not end.
-    let Some(schur) = Schur::try_new(matrix, f64::EPSILON, MOST_ITERATIONS * n) else {
-        return problem.motion.duration();
-    };
-    let slowest = schur.complex_eigenvalues().iter().map(|x| libm::hypot(x.re, x.im)).fold(0.0, f64::max);
-    falls(slowest, problem.period).unwrap_or(problem.motion.duration())
-}
-
-/// The time in which an error that is `factor` times as large after each period falls to e⁻⁸ of itself, s; `None` where it does not.
-pub(super) fn falls(factor: f64, period: f64) -> Option<f64> {
-    let time = -SETTLED * period / libm::log(factor);
-    (time > 0.0 && time.is_finite()).then_some(time)
 }

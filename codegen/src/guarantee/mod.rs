@@ -11,6 +11,7 @@ mod problem;
 mod repetition;
 mod sampled;
 mod set;
+mod settling;
 mod statement;
 #[cfg(test)]
 mod tests;

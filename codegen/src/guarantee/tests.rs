@@ -3,7 +3,7 @@
 use gramforge_runtime::reference::Sinusoid;
 
 use super::declared::Declared;
-use super::follow::{Open, Sampled, falls, follow};
+use super::follow::{Open, Sampled, follow};
 use super::funnel::{Funnel, Lost};
 use super::problem::{Problem, Switching, Wrong};
 use crate::arm::Arm;
@@ -120,13 +120,28 @@ fn what_the_step_is_wrong_by_grows_with_the_errors() {
     });
 }
 
+/// A box that is to hold for ever is larger than the set in it, and its first torque counts as well.
 #[test]
-fn only_errors_that_fall_have_a_time_to_settle() {
-    let time = falls(libm::exp(-0.004), 0.001).expect("they fall");
-    assert!((time - 2.0).abs() < 1e-9, "{time}");
-    for factor in [1.0, 1.5, f64::INFINITY, f64::NAN] {
-        assert_eq!(falls(factor, 0.001), None, "{factor}");
-    }
+fn a_box_beyond_the_declared_errors_widens_them() {
+    judged(100.0, |problem| {
+        let tiny = [1e-9; 3];
+        let problem = Problem { initial: [&tiny, &ZERO], ..problem.clone() };
+        // Errors of the torque alone: the largest before the box is made.
+        let mut funnel = Funnel::new(&problem, off(0.2));
+        let mut most = funnel.set.hull();
+        while funnel.index < 1500 {
+            let step = funnel.step().expect("followed");
+            most.iter_mut().zip(step.hull).for_each(|(most, x)| *most = most.max(x));
+        }
+        let asked = std::cell::Cell::new(0);
+        let wrong = |bounds: &[f64]| {
+            asked.set(asked.get() + usize::from(bounds != most));
+            off(0.2)
+        };
+        let sampled = follow(&problem, Declared::new(most.clone(), &wrong), Some(1.5)).expect("followed");
+        assert_eq!(sampled.valid_until, None);
+        assert!(asked.get() > 0, "larger errors are declared for the box");
+    });
 }
 
 /// A motion that moves on at its end is claimed for whole periods of it: of none, there is nothing to claim.

@@ -38,8 +38,8 @@ pub struct Loop {
     tape: Tape<f64>,
     model: Tape<f64>,
     p12: Row,
-    /// By how much the step may be off at each sample, N·m or N; none for an exact model in f64, whose rounding the plant could not tell from its
-    /// own. In f32 the step is computed in f64 here, and what it would round by is added.
+    /// By how much the step may be off at each sample, N·m or N. Empty for an exact model in f64, whose rounding the plant could not
+    /// tell from its own. In f32 the step is computed in f64 here, and what it would round by is added.
     pub push: Vec<Row>,
 }
 

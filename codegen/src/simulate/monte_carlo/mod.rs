@@ -90,6 +90,7 @@ struct Runs<'a, T, const N: usize> {
     arm: FastArm<N>,
     planner: Planner<'a, N>,
     bound: [f64; N],
+    followed: Vec<(usize, [f64; N])>,
     emitted: Emitted,
     instants: Instants,
 }
@@ -117,6 +118,12 @@ impl<'a, T: Angle + Send + Sync, const N: usize> Runs<'a, T, N> {
         Ok(Self {
             planner: Planner { frozen, initial: scenario.initial, ranges, period, settle, end, steps },
             bound: vector("the bound on the model's error", &request.model_error.torque)?,
+            followed: request
+                .model_error
+                .followed
+                .iter()
+                .map(|(time, torque)| Ok((instant(*time), vector("what was followed", torque)?)))
+                .collect::<Result<_, Error>>()?,
             emitted: Emitted::new(scenario.code, scenario.scalar),
             instants: Instants { settle, end, steps, part: (steps / PARTS).max(1) },
             rig,
@@ -160,6 +167,7 @@ impl<'a, T: Angle + Send + Sync, const N: usize> Runs<'a, T, N> {
         let arm = FastArm::new(request.family.at(&plan.parameters))?;
         let push = Push {
             bound: self.bound,
+            followed: &self.followed,
             at_state: request.model_error.at_state.as_ref(),
             exact: match request.model_error.against {
                 Against::Exact => None,

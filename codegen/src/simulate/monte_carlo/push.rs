@@ -12,6 +12,8 @@ use crate::spec::ScalarSpec;
 pub struct ModelErrorBound {
     /// By joint at any instant, N·m or N.
     pub torque: Vec<f64>,
+    /// From each time on, s, where that is less: for which errors of the loop were followed. Empty where none were.
+    pub followed: Vec<(f64, Vec<f64>)>,
     /// At the state of the instant, where that is less; `None` to leave it at the one for any instant.
     pub at_state: Option<BoundAtState>,
     /// The arm that this is the distance from.
@@ -58,6 +60,8 @@ impl Emitted {
 pub(super) struct Push<'a, const N: usize> {
     /// For any instant.
     pub bound: [f64; N],
+    /// From each step on, where that is less.
+    pub followed: &'a [(usize, [f64; N])],
     /// For the state of the instant.
     pub at_state: Option<&'a BoundAtState>,
     /// The arm that the model's error is counted from; `None` where the model has none.
@@ -68,11 +72,12 @@ pub(super) struct Push<'a, const N: usize> {
 }
 
 impl<const N: usize> Push<'_, N> {
-    /// The torque to add for one period, N·m or N, so that with what the model is wrong by at this instant it makes the
+    /// The torque to add for period `step`, N·m or N, so that with what the model is wrong by at this instant it makes the
     /// bound, on the side that `sides` says; and whether the model is wrong by more than the bound in some joint, to
     /// which nothing is added.
     pub(super) fn torque(
         &self,
+        step: usize,
         q: &[f64; N],
         qd: &[f64; N],
         desired: &Desired<f64, N>,
@@ -84,7 +89,7 @@ impl<const N: usize> Push<'_, N> {
         let v_r: [f64; N] = std::array::from_fn(|i| desired.qd[i] - pulled(&q_e, i));
         let a_r: [f64; N] = std::array::from_fn(|i| desired.qdd[i] - pulled(&qd_e, i));
         let error = self.model_error(q, qd, &v_r, &a_r);
-        let bound = self.bound_at(qd, &v_r, &a_r);
+        let bound = self.bound_at(step, qd, &v_r, &a_r);
         let beyond = |i: usize| error[i].abs() > bound[i];
         let torque = |i: usize| match beyond(i) {
             true => 0.0,
@@ -93,13 +98,15 @@ impl<const N: usize> Push<'_, N> {
         (std::array::from_fn(torque), (0..N).any(beyond))
     }
 
-    /// What the model is wrong by at most at these rates.
-    fn bound_at(&self, qd: &[f64; N], v_r: &[f64; N], a_r: &[f64; N]) -> [f64; N] {
-        let Some(BoundAtState { entries, rounding }) = self.at_state else { return self.bound };
+    /// What the model is wrong by at most in period `step` at these rates.
+    fn bound_at(&self, step: usize, qd: &[f64; N], v_r: &[f64; N], a_r: &[f64; N]) -> [f64; N] {
+        let followed = self.followed.iter().take_while(|(from, _)| *from <= step).last();
+        let mut bound =
+            followed.map_or(self.bound, |(_, most)| std::array::from_fn(|i| self.bound[i].min(most[i])));
+        let Some(BoundAtState { entries, rounding }) = self.at_state else { return bound };
         let sizes = |x: &[f64; N]| x.iter().map(|x| x.abs()).collect();
         let rates =
             Rates { speed: sizes(qd), reference_speed: sizes(v_r), reference_acceleration: sizes(a_r) };
-        let mut bound = self.bound;
         for ((bound, own), rounding) in bound.iter_mut().zip(entries.torque(&rates)).zip(rounding) {
             *bound = bound.min(own + rounding);
         }

@@ -24,7 +24,7 @@ pub struct MonteCarloRequest<'a> {
 impl<'a> MonteCarloRequest<'a> {
     /// `runs` runs with what `generation` publishes: its family, and the torque error of its model at the rates that the
     /// law meets, or where nothing holds the errors, at the motion's own; where the entries of D, h and G tell less at the
-    /// state of the instant, that. An exact model errs by rounding alone: what
+    /// state of the instant, that, and never more than the guarantee was made for. An exact model errs by rounding alone: what
     /// uncertain numbers do, the arms of the family do themselves. No disturbance is added for a law that learns: its
     /// model has no fixed error.
     pub fn of(generation: &'a Generation, runs: usize, settle: f64) -> Self {
@@ -42,10 +42,12 @@ impl<'a> MonteCarloRequest<'a> {
             true => torque.map(|torque| &torque.rounding),
             false => met.map(|met| &met.error).or(torque.map(|torque| &torque.error)),
         };
+        let sampled = generation.statement().and_then(|statement| statement.sampled.as_ref());
         Self {
             runs,
             settle,
             model_error: ModelErrorBound {
+                followed: sampled.map_or_else(Vec::new, |sampled| sampled.torque_error.clone()),
                 at_state: torque.filter(|_| !exact && !learns).map(|torque| BoundAtState {
                     entries: generation.bounds().clone(),
                     rounding: torque.rounding.clone(),

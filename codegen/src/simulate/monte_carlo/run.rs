@@ -131,7 +131,7 @@ where
             Err(fault) => fault.command,
         };
         out.torque.iter_mut().zip(&command).for_each(|(most, torque)| *most = most.max(torque.abs()));
-        let (more, beyond) = push.torque(&q, &qd, &desired, sides);
+        let (more, beyond) = push.torque(step, &q, &qd, &desired, sides);
         out.beyond |= beyond;
         let torque = std::array::from_fn(|i| command[i] + more[i]);
         if simulation.advance(&torque).is_err() {

@@ -46,10 +46,15 @@ fn request(generation: &Generation, runs: usize) -> MonteCarloRequest<'_> {
     MonteCarloRequest::of(generation, runs, 1.0)
 }
 
+/// Pushes of this torque alone, N·m, on an exact model.
+fn without_model_error(torque: f64) -> ModelErrorBound {
+    ModelErrorBound { torque: vec![torque; 3], followed: Vec::new(), at_state: None, against: Against::Exact }
+}
+
 /// The same without pushes.
 fn left_alone(generation: &Generation, runs: usize) -> MonteCarloRequest<'_> {
     let mut request = request(generation, runs);
-    request.model_error = ModelErrorBound { torque: vec![0.0; 3], at_state: None, against: Against::Exact };
+    request.model_error = without_model_error(0.0);
     request
 }
 
@@ -132,8 +137,8 @@ fn a_push_makes_the_models_error_its_bound_and_no_more() {
         let q: [f64; 3] = std::array::from_fn(|i| desired.q[i] + q_e[i]);
         let qd: [f64; 3] = std::array::from_fn(|i| desired.qd[i] + qd_e[i]);
         let p12 = &runs.rig.gains.p12;
-        let push = Push { bound, at_state, exact: Some(&runs.arm), code: &runs.emitted, p12 };
-        let (torque, beyond) = push.torque(&q, &qd, &desired, sides);
+        let push = Push { bound, followed: &[], at_state, exact: Some(&runs.arm), code: &runs.emitted, p12 };
+        let (torque, beyond) = push.torque(0, &q, &qd, &desired, sides);
         // P12 = 4 on the diagonal.
         let v_r: [f64; 3] = std::array::from_fn(|i| desired.qd[i] - 4.0 * q_e[i]);
         let a_r: [f64; 3] = std::array::from_fn(|i| desired.qdd[i] - 4.0 * qd_e[i]);
@@ -206,10 +211,16 @@ fn attacks_reach_what_the_frozen_loop_says() {
     });
     let scenario = Scenario::of(&generation).unwrap();
     let mut request = request(&generation, 1);
-    request.model_error = ModelErrorBound { torque: vec![0.2; 3], at_state: None, against: Against::Exact };
+    request.model_error = without_model_error(0.2);
     let runs = Runs::<f64, 3>::new(&scenario, &request).unwrap();
-    let push =
-        Push { bound: [0.2; 3], at_state: None, exact: None, code: &runs.emitted, p12: &runs.rig.gains.p12 };
+    let mut push = Push {
+        bound: [0.2; 3],
+        followed: &[],
+        at_state: None,
+        exact: None,
+        code: &runs.emitted,
+        p12: &runs.rig.gains.p12,
+    };
     let after = |plan: &Plan<3>, step: usize| {
         let instants = Instants { end: step, ..runs.instants };
         let Controlled { model, law, .. } = runs.controlled.clone();
@@ -229,6 +240,12 @@ fn attacks_reach_what_the_frozen_loop_says() {
         let seen = 0.5 * (sides[0] + sides[1]);
         assert!((seen / said - 1.0).abs() < 0.02, "joint {joint}, step {step}: {seen}, said {said}");
     }
+    // No more than what the guarantee was made for at that step.
+    let followed = [(0, [0.05; 3]), (10, [0.1, 0.3, 0.1])];
+    push.followed = &followed;
+    let desired = runs.rig.reference.at(0.0);
+    let at = |step: usize| push.torque(step, &desired.q, &desired.qd, &desired, &[1; 3]).0;
+    assert_eq!((at(0), at(9), at(10), at(500)), ([0.05; 3], [0.05; 3], [0.1, 0.2, 0.1], [0.1, 0.2, 0.1]));
 }
 
 #[test]
