@@ -2,7 +2,7 @@
 // Specification: SHA-256 5497fcb0e6eb062386c6655c57b5220606dcf3becd2c9ead7907c92cf4040d17
 // Made by: gramforge generate arm3_adaptive.json --out DIR
 // gramforge: {"form":"expanded","psi":[["cos(q2)",0.8820578564913022],["sin(2 q2)",0.11794214350869783]],"operations":{"mul":90,"add":87,"fused":0,"other":7,"div":0,"trig_pairs":2},"exact_operations":null,"torque_error":[0.6619390777978894,0.09935494001302723,0.1272269793483294],"switching_gain":null,"guarantee":"none"}
-// Size: 16705 bytes below this line
+// Size: 16727 bytes below this line
 
 /// Reduced model of `arm3_adaptive`, 3 joints: 2 of 11 ψ functions.
 ///
@@ -278,6 +278,7 @@ impl ::gramforge_runtime::ControlStep<3, 1> for Arm3Adaptive {
         high: LAW.high,
         initial: LAW.initial,
     };
+    #[inline(always)]
     fn step(
         q: &[f64; 3],
         qd: &[f64; 3],

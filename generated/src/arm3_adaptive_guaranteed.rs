@@ -2,7 +2,7 @@
 // Specification: SHA-256 134a79667038863b76157227f033dd5cd70bd9994d96dec632dcc83f45d90d43
 // Made by: gramforge generate arm3_adaptive_guaranteed.json --out DIR
 // gramforge: {"form":"expanded","psi":[["cos(q2)",0.7971291781515436],["cos(2 q2 + 2 q3)",0.06457985522347803],["sin(2 q2 + 2 q3)",0.08998292009242227],["sin(q3)",0.04830804653255605]],"operations":{"mul":96,"add":93,"fused":0,"other":5,"div":0,"trig_pairs":2},"exact_operations":null,"torque_error":[0.10123558776924492,4.159778183856604e-9,2.072278781758154e-9],"switching_gain":null,"guarantee":"continuous"}
-// Size: 18457 bytes below this line
+// Size: 18479 bytes below this line
 
 /// Reduced model of `arm3_adaptive_guaranteed`, 3 joints: 4 of 11 ψ functions.
 ///
@@ -306,6 +306,7 @@ impl ::gramforge_runtime::ControlStep<3, 1> for Arm3AdaptiveGuaranteed {
         high: LAW.high,
         initial: LAW.initial,
     };
+    #[inline(always)]
     fn step(
         q: &[f64; 3],
         qd: &[f64; 3],

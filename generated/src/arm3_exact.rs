@@ -2,7 +2,7 @@
 // Specification: SHA-256 b52276dc4ed32aa028df27cd8ce4f8b36f101314b3c2eb277fd91b5b511f77bd
 // Made by: gramforge generate arm3_exact.json --out DIR
 // gramforge: {"form":"expanded","psi":[],"operations":{"mul":59,"add":53,"fused":0,"other":0,"div":0,"trig_pairs":2},"exact_operations":{"mul":59,"add":53,"fused":0,"other":0,"div":0,"trig_pairs":2},"torque_error":[3.3424195055465438e-9,2.1184437864115165e-9,1.0482296664890342e-9],"switching_gain":[0.0,0.0,0.0],"guarantee":"none"}
-// Size: 10812 bytes below this line
+// Size: 10834 bytes below this line
 
 /// Exact model of `arm3_exact`, 3 joints, in expanded form.
 ///
@@ -180,6 +180,7 @@ impl ::gramforge_runtime::ControlStep<3> for Arm3Exact {
     type Scalar = f64;
     const SETTINGS: ::gramforge_runtime::Settings<f64, 3> = SETTINGS;
     const LEARNING: ::gramforge_runtime::step::Learning<f64, 0> = ::gramforge_runtime::step::Learning::NONE;
+    #[inline(always)]
     fn step(
         q: &[f64; 3],
         qd: &[f64; 3],

@@ -2,7 +2,7 @@
 // Specification: SHA-256 0bc8a724e80f58f25960b88a90d26515986ca41aad56dca864237f9d76bd6c7d
 // Made by: gramforge generate arm3_robust.json --out DIR
 // gramforge: {"form":"expanded","psi":[["cos(q2)",0.8820578564913022],["sin(2 q2)",0.11794214350869783]],"operations":{"mul":69,"add":70,"fused":0,"other":3,"div":0,"trig_pairs":2},"exact_operations":{"mul":81,"add":80,"fused":0,"other":3,"div":0,"trig_pairs":2},"torque_error":[0.8571011582096751,7.035624556755547,3.94320143269551],"switching_gain":[597.3981170118208,315.489507414925,222.8230053255846],"guarantee":"none"}
-// Size: 12717 bytes below this line
+// Size: 12739 bytes below this line
 
 /// Reduced model of `arm3_robust`, 3 joints: 2 of 11 ψ functions.
 ///
@@ -199,6 +199,7 @@ impl ::gramforge_runtime::ControlStep<3> for Arm3Robust {
     type Scalar = f64;
     const SETTINGS: ::gramforge_runtime::Settings<f64, 3> = SETTINGS;
     const LEARNING: ::gramforge_runtime::step::Learning<f64, 0> = ::gramforge_runtime::step::Learning::NONE;
+    #[inline(always)]
     fn step(
         q: &[f64; 3],
         qd: &[f64; 3],

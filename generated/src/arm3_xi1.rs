@@ -2,7 +2,7 @@
 // Specification: SHA-256 84e9bd87764467c040b5d24b2e643532714d7c2a9ff9b0633c6489a052b34027
 // Made by: gramforge generate arm3_xi1.json --out DIR
 // gramforge: {"form":"expanded","psi":[["cos(q2)",1.0]],"operations":{"mul":55,"add":61,"fused":0,"other":3,"div":0,"trig_pairs":2},"exact_operations":{"mul":59,"add":53,"fused":0,"other":0,"div":0,"trig_pairs":2},"torque_error":[0.6545610855676922,12.327850514143572,0.19502905285999209],"switching_gain":[392.5810610970309,203.79662076357067,83.13303941147524],"guarantee":"none"}
-// Size: 11780 bytes below this line
+// Size: 11802 bytes below this line
 
 /// Reduced model of `arm3_xi1`, 3 joints: 1 of 11 ψ functions.
 ///
@@ -194,6 +194,7 @@ impl ::gramforge_runtime::ControlStep<3> for Arm3Xi1 {
     type Scalar = f64;
     const SETTINGS: ::gramforge_runtime::Settings<f64, 3> = SETTINGS;
     const LEARNING: ::gramforge_runtime::step::Learning<f64, 0> = ::gramforge_runtime::step::Learning::NONE;
+    #[inline(always)]
     fn step(
         q: &[f64; 3],
         qd: &[f64; 3],

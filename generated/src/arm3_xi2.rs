@@ -2,7 +2,7 @@
 // Specification: SHA-256 69f66abd566a8aaaeec1d8d92eef592ededd6104123cc6fd9bb363cae5284d55
 // Made by: gramforge generate arm3_xi2.json --out DIR
 // gramforge: {"form":"expanded","psi":[["cos(q2)",0.8820578564913022],["sin(2 q2)",0.11794214350869783]],"operations":{"mul":54,"add":58,"fused":0,"other":3,"div":0,"trig_pairs":2},"exact_operations":{"mul":59,"add":53,"fused":0,"other":0,"div":0,"trig_pairs":2},"torque_error":[0.5345135920981123,0.0810137335010069,0.10219172328664738],"switching_gain":[227.68368324137856,48.81518841460053,61.720162514090376],"guarantee":"none"}
-// Size: 12023 bytes below this line
+// Size: 12045 bytes below this line
 
 /// Reduced model of `arm3_xi2`, 3 joints: 2 of 11 ψ functions.
 ///
@@ -197,6 +197,7 @@ impl ::gramforge_runtime::ControlStep<3> for Arm3Xi2 {
     type Scalar = f64;
     const SETTINGS: ::gramforge_runtime::Settings<f64, 3> = SETTINGS;
     const LEARNING: ::gramforge_runtime::step::Learning<f64, 0> = ::gramforge_runtime::step::Learning::NONE;
+    #[inline(always)]
     fn step(
         q: &[f64; 3],
         qd: &[f64; 3],

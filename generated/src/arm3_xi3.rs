@@ -2,7 +2,7 @@
 // Specification: SHA-256 ba57f0b5fc2af0493c932c3c532be1f53b0be52f005adce66d3362bcd79893eb
 // Made by: gramforge generate arm3_xi3.json --out DIR
 // gramforge: {"form":"expanded","psi":[["cos(q2)",0.9742821619954545],["sin(2 q2)",0.00017033110236274783],["cos(2 q2 + 2 q3)",0.02554750690218284]],"operations":{"mul":60,"add":57,"fused":0,"other":1,"div":0,"trig_pairs":2},"exact_operations":{"mul":59,"add":53,"fused":0,"other":0,"div":0,"trig_pairs":2},"torque_error":[0.11435029115659226,2.1184437864115165e-9,1.0482296664890342e-9],"switching_gain":[10.037784768949766,0.0,0.0],"guarantee":"none"}
-// Size: 12344 bytes below this line
+// Size: 12366 bytes below this line
 
 /// Reduced model of `arm3_xi3`, 3 joints: 3 of 11 ψ functions.
 ///
@@ -202,6 +202,7 @@ impl ::gramforge_runtime::ControlStep<3> for Arm3Xi3 {
     type Scalar = f64;
     const SETTINGS: ::gramforge_runtime::Settings<f64, 3> = SETTINGS;
     const LEARNING: ::gramforge_runtime::step::Learning<f64, 0> = ::gramforge_runtime::step::Learning::NONE;
+    #[inline(always)]
     fn step(
         q: &[f64; 3],
         qd: &[f64; 3],

@@ -2,7 +2,7 @@
 // Specification: SHA-256 7dedb30a05377a2ea1ba23ac2cc78848bbcf5fe31b642edd46e2cf54abb22143
 // Made by: gramforge generate puma560_exact.json --out DIR
 // gramforge: {"form":"recursive","psi":[],"operations":{"mul":212,"add":200,"fused":0,"other":12,"div":0,"trig_pairs":4},"exact_operations":{"mul":212,"add":200,"fused":0,"other":12,"div":0,"trig_pairs":4},"torque_error":[4.889368565424183e-9,1.874980480671193e-9,4.6038937151085075e-10,2.009566114667168e-10,3.3516183750613157e-12,4.558580933696549e-12],"switching_gain":[27.2358285,13.58469,7.0892316,1.28501516,1.0428835,0.8052030000000001],"guarantee":"sampled"}
-// Size: 27340 bytes below this line
+// Size: 27362 bytes below this line
 
 /// Exact model of `puma560_exact`, 6 joints, in recursive form.
 ///
@@ -357,6 +357,7 @@ impl ::gramforge_runtime::ControlStep<6> for Puma560Exact {
     type Scalar = f64;
     const SETTINGS: ::gramforge_runtime::Settings<f64, 6> = SETTINGS;
     const LEARNING: ::gramforge_runtime::step::Learning<f64, 0> = ::gramforge_runtime::step::Learning::NONE;
+    #[inline(always)]
     fn step(
         q: &[f64; 6],
         qd: &[f64; 6],

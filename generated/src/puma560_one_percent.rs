@@ -2,7 +2,7 @@
 // Specification: SHA-256 5549853045b307e40ff5ff8623e1a4eafd42b61fb3eeccf3627811af310e6451
 // Made by: gramforge generate puma560_one_percent.json --out DIR
 // gramforge: {"form":"sparse","psi":[["1",0.5135258991790184],["cos(q2)",0.4287188230917026],["sin(q2)",0.009269994446177902],["cos(q3)",0.00021104346734669672],["sin(q3)",0.004657010462807963],["cos(q4)",2.8178248560228407e-8],["sin(q4)",1.3032729589236115e-9],["sin(q5)",1.453106488578148e-8],["cos(q2 + q3)",0.0005385531183071307],["sin(q2 + q3)",0.02744089124980471],["cos(q2) cos(q2)",0.012414522628687122],["cos(q2) sin(q2)",0.0002381711344786392],["cos(q2) cos(q4) sin(q5)",3.116853166416357e-8],["cos(q2) cos(q2 + q3)",0.00006141709255914309],["cos(q2) sin(q2 + q3)",0.0021829550166786774],["sin(q2) sin(q2 + q3)",0.000031931683435124265],["cos(q4) cos(q5)",4.762157227527206e-8],["sin(q2 + q3) cos(q4) cos(q5)",6.551566889401399e-8],["sin(q4) sin(q5)",5.686831421012238e-8],["sin(q2 + q3) sin(q4) sin(q5)",7.739440562577931e-8],["sin(q4) cos(q2 + q3)",1.548374572643314e-10],["sin(q4) sin(q2 + q3)",5.1071916757167684e-8],["sin(q5) cos(q2 + q3)",1.6833149165633124e-7],["cos(q2 + q3) cos(q2 + q3)",0.0006789682709713688],["cos(q2 + q3) sin(q2 + q3)",0.000029277018699741795]],"operations":{"mul":132,"add":110,"fused":0,"other":12,"div":0,"trig_pairs":4},"exact_operations":{"mul":212,"add":200,"fused":0,"other":12,"div":0,"trig_pairs":4},"torque_error":[0.46823784556864334,0.5950827238384395,0.2407315713382485,0.03671227598536516,0.03200984384998827,0.0025616335888987906],"switching_gain":[27.8786,14.2778,7.35123,1.33114,1.08431,0.808242],"guarantee":"sampled"}
-// Size: 27023 bytes below this line
+// Size: 27045 bytes below this line
 
 /// Reduced model of `puma560_one_percent`, 6 joints: 25 functions, products counted, where the exact model has 141 ψ.
 ///
@@ -412,6 +412,7 @@ impl ::gramforge_runtime::ControlStep<6> for Puma560OnePercent {
     type Scalar = f64;
     const SETTINGS: ::gramforge_runtime::Settings<f64, 6> = SETTINGS;
     const LEARNING: ::gramforge_runtime::step::Learning<f64, 0> = ::gramforge_runtime::step::Learning::NONE;
+    #[inline(always)]
     fn step(
         q: &[f64; 6],
         qd: &[f64; 6],

@@ -2,7 +2,7 @@
 // Specification: SHA-256 dd271e1825d9806ce803f5ad4d5a6c7acc2e14501c0ca5ca1309548d54a73e1d
 // Made by: gramforge generate puma560_xi12.json --out DIR
 // gramforge: {"form":"expanded","psi":[["cos(q5)",0.000039546338859420765],["sin(q2 + q3)",0.011826580249173267],["cos(q2)",0.16873840932427803],["sin(2 q2)",0.00980995853992235],["cos(2 q5)",1.9978029447541294e-6],["sin(2 q2 + q3)",0.00638637371597747],["cos(q2 + q3)",0.003207834367237441],["1",0.7631786316558734],["sin(q2)",0.009236664892828258],["sin(2 q2 + 2 q3)",0.00031583324931472296],["cos(2 q2)",0.011823781417288926],["sin(q3)",0.015434388446301897]],"operations":{"mul":617,"add":636,"fused":0,"other":12,"div":0,"trig_pairs":4},"exact_operations":{"mul":212,"add":200,"fused":0,"other":12,"div":0,"trig_pairs":4},"torque_error":[0.009013341447136607,0.002378160743455101,0.0020651581727461166,0.0006874062787229519,0.0009538368514786089,9.152448602856575e-11],"switching_gain":[27.3022,13.5969,7.09884,1.2879,1.04735,0.805204],"guarantee":"sampled"}
-// Size: 76398 bytes below this line
+// Size: 76420 bytes below this line
 
 /// Reduced model of `puma560_xi12`, 6 joints: 12 of 141 ψ functions.
 ///
@@ -769,6 +769,7 @@ impl ::gramforge_runtime::ControlStep<6> for Puma560Xi12 {
     type Scalar = f64;
     const SETTINGS: ::gramforge_runtime::Settings<f64, 6> = SETTINGS;
     const LEARNING: ::gramforge_runtime::step::Learning<f64, 0> = ::gramforge_runtime::step::Learning::NONE;
+    #[inline(always)]
     fn step(
         q: &[f64; 6],
         qd: &[f64; 6],

@@ -2,7 +2,7 @@
 // Specification: SHA-256 6356d47cb8be4f17762d7be89ba44d0ca7988cac8a4c5e0b89db30c9de09bf59
 // Made by: gramforge generate puma560_xi6.json --out DIR
 // gramforge: {"form":"expanded","psi":[["cos(q5)",0.009324855173500294],["sin(q2 + q3)",0.07156920464829765],["cos(q2)",0.9182004322035673],["sin(2 q2)",0.0004037290412456438],["cos(2 q5)",0.00041325516986574643],["sin(2 q2 + q3)",0.00008852376352351117]],"operations":{"mul":479,"add":444,"fused":0,"other":12,"div":0,"trig_pairs":4},"exact_operations":{"mul":212,"add":200,"fused":0,"other":12,"div":0,"trig_pairs":4},"torque_error":[0.10742806059416483,0.216749052731679,0.1321353596514365,0.0008973914552724964,0.0012333520883920177,9.152448602856575e-11],"switching_gain":[28.1633,15.0308,7.69562,1.28976,1.0493,0.805204],"guarantee":"sampled"}
-// Size: 54916 bytes below this line
+// Size: 54938 bytes below this line
 
 /// Reduced model of `puma560_xi6`, 6 joints: 6 of 141 ψ functions.
 ///
@@ -584,6 +584,7 @@ impl ::gramforge_runtime::ControlStep<6> for Puma560Xi6 {
     type Scalar = f64;
     const SETTINGS: ::gramforge_runtime::Settings<f64, 6> = SETTINGS;
     const LEARNING: ::gramforge_runtime::step::Learning<f64, 0> = ::gramforge_runtime::step::Learning::NONE;
+    #[inline(always)]
     fn step(
         q: &[f64; 6],
         qd: &[f64; 6],

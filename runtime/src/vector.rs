@@ -4,6 +4,22 @@ use core::array::from_fn;
 
 use crate::Real;
 
+/// Does `body` for each joint `i` below `N`, written out for up to eight joints: a compiler that is asked for small code keeps
+/// every loop, and with a loop the vectors in memory that it goes over, and their copies.
+macro_rules! for_each_joint {
+    ($n:ident, $i:ident => $body:block) => {
+        for_each_joint!(@written $n, $i, $body, 0 1 2 3 4 5 6 7);
+        for $i in 8..$n $body
+    };
+    (@written $n:ident, $i:ident, $body:block, $($k:literal)*) => {
+        $(if $k < $n {
+            let $i: usize = $k;
+            $body
+        })*
+    };
+}
+pub(crate) use for_each_joint;
+
 /// a + b.
 pub(crate) fn add<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> [T; N] {
     from_fn(|i| a[i] + b[i])

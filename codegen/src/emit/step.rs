@@ -44,6 +44,7 @@ pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<T
     let learnt_so_far = if read { format_ident!("theta") } else { format_ident!("_theta") };
     let (unused, plain, counts) = (unused(), plain_numbers(), counts(step));
     let checked = super::reference_limits::checked(module);
+    // A firmware has one place that takes the step: written out there, the step's torques are not stored and read again.
     Ok(quote! {
         #counts
 
@@ -54,6 +55,7 @@ pub(super) fn step(module: &Module, step: &StepGraph, model: &Ident) -> Result<T
             const LEARNING: ::gramforge_runtime::step::Learning<#scalar, #p> = #learning;
             #checked
 
+            #[inline(always)]
             fn step(
                 q: &[#scalar; #n],
                 qd: &[#scalar; #n],

@@ -1,6 +1,7 @@
 //! The quintic polynomial that starts and ends at rest.
 
 use super::{Desired, Reference, check_duration, check_finite};
+use crate::vector::for_each_joint;
 use crate::{ConfigError, Real};
 
 /// Moves every joint from one position to another in the same time, with velocity and acceleration zero at both ends.
@@ -26,15 +27,14 @@ impl<T: Real, const N: usize> Reference<T, N> for QuinticReference<T, N> {
         // What the joints share is computed once.
         let shape = Shape::at(self.duration, t);
         let (mut q, mut qd, mut qdd) = (self.to, self.to, self.to);
-        // One loop: a compiler that is asked for small code keeps every loop that is written.
-        for i in 0..N {
+        for_each_joint!(N, i => {
             let span = self.to[i] - self.from[i];
             if !shape.arrived {
                 q[i] = self.from[i] + span * shape.position;
             }
             qd[i] = span * shape.velocity;
             qdd[i] = span * shape.acceleration;
-        }
+        });
         Desired { q, qd, qdd }
     }
 

@@ -6,6 +6,7 @@
 use super::{Desired, cubic, quintic_shape};
 use crate::Real;
 use crate::trig::{Polynomial, Trig};
+use crate::vector::for_each_joint;
 
 /// A desired motion of `N` joints, by the number of the control period.
 pub trait TickReference<T: Real, const N: usize> {
@@ -38,15 +39,14 @@ impl<T: Real, const N: usize> TickReference<T, N> for QuinticTicks<T, N> {
             quintic_shape(T::from_u32(tick) * self.step, self.rate)
         };
         let (mut q, mut qd, mut qdd) = (self.to, self.to, self.to);
-        // One loop: a compiler that is asked for small code keeps every loop that is written.
-        for i in 0..N {
+        for_each_joint!(N, i => {
             let span = self.to[i] - self.from[i];
             if !arrived {
                 q[i] = self.from[i] + span * position;
             }
             qd[i] = span * velocity;
             qdd[i] = span * acceleration;
-        }
+        });
         Desired { q, qd, qdd }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::ControlStep;
 use crate::reference::Desired;
-use crate::vector::first_not_finite;
+use crate::vector::{first_not_finite, for_each_joint};
 use crate::{Command, Estimate, Fault, OnFault, Quantity, Real, Reason, TorqueController};
 
 /// A [`ControlStep`] with the little that must be remembered from one step to the next.
@@ -63,12 +63,20 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
         let zero = S::Scalar::ZERO;
         let mut sum = torque.unread * zero;
         let mut saturated = [false; N];
-        for i in 0..N {
+        for_each_joint!(N, i => {
             sum += torque.asked[i] * zero;
             saturated[i] = torque.limited[i] != torque.asked[i];
-        }
+        });
         if sum != zero {
-            return Err(self.fault_of(q, qd, desired, &torque.asked));
+            // Found here, so that the torques need not be in memory.
+            let mut joint = 0;
+            for_each_joint!(N, i => {
+                let earlier = N - 1 - i;
+                if !torque.asked[earlier].is_finite() {
+                    joint = earlier;
+                }
+            });
+            return Err(self.fault_of(q, qd, desired, joint));
         }
         let beyond = S::REFERENCE.as_ref().and_then(|limits| limits.beyond(desired));
         if let Some((quantity, joint)) = beyond {
@@ -115,7 +123,7 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
         *self = Self::new();
     }
 
-    /// The fault behind a torque that is not finite.
+    /// The fault behind the torque of a joint that is not finite.
     #[cold]
     #[inline(never)]
     fn fault_of(
@@ -123,9 +131,9 @@ impl<S: ControlStep<N, P>, const N: usize, const P: usize> StepController<S, N, 
         q: &[S::Scalar; N],
         qd: &[S::Scalar; N],
         desired: &Desired<S::Scalar, N>,
-        asked: &[S::Scalar; N],
+        joint: usize,
     ) -> Fault<S::Scalar, N> {
-        let torque = (Quantity::Torque, first_not_finite(asked).unwrap_or(0));
+        let torque = (Quantity::Torque, joint);
         let (quantity, joint) = not_finite(q, qd, desired).unwrap_or(torque);
         self.fault(q, quantity, Reason::NotFinite, joint)
     }
