@@ -114,3 +114,8 @@ pub fn difference<'a>(a: impl IntoIterator<Item = &'a f64>, b: impl IntoIterator
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 struct Readme;
+
+/// The code of the guide for the first steps, compiled; the simulation runs.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/guides/start.md")]
+struct Start;

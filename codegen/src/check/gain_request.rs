@@ -49,6 +49,7 @@ pub(super) fn check(control: &ControlSpec, spec: &Spec, joints: Option<usize>, f
         let help = "take the measure `tube`, or `workspace`";
         faults.push("control.design", "needs room for errors, but the measure `trajectory` has none", help);
     }
+    starts_outside(control, spec, joints, faults);
     let Some(tube) = &request.tube else { return };
     entries("control.design.tube", tube, joints, |v| v >= LEAST, "a number of at least 1e-6", faults);
     let widest = match &spec.measure {
@@ -77,6 +78,28 @@ pub(super) fn check(control: &ControlSpec, spec: &Spec, joints: Option<usize>, f
             field,
             problem,
             format!("write at most {widest}, or widen `measure.tube.position_error`"),
+        );
+    }
+}
+
+/// An arm that may start outside the tube has no gains, which need not be sought.
+fn starts_outside(control: &ControlSpec, spec: &Spec, joints: Option<usize>, faults: &mut Diagnostics) {
+    let tube = match &spec.measure {
+        Some(MeasureSpec::Tube { position_error }) => position_error,
+        None if spec.motion.is_some() => &VectorSpec::Scalar(crate::domain::DEFAULT_TUBE),
+        _ => return,
+    };
+    let position = &control.initial_error.position;
+    let Some((start, tube)) = joints.and_then(|n| Some((position.by_joint(n)?, tube.by_joint(n)?))) else {
+        return;
+    };
+    let beyond = start.iter().zip(&tube).position(|(start, tube)| start > tube);
+    if let Some(i) = beyond {
+        let (start, tube) = (scientific(start[i]), scientific(tube[i]));
+        faults.push(
+            "control.initial_error.position",
+            format!("is {start} of joint {}, and the bounds hold only up to {tube}", i + 1),
+            "take a smaller initial error, in rad or m, or widen `measure.tube.position_error`",
         );
     }
 }

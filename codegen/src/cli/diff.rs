@@ -48,7 +48,11 @@ impl Diff {
 
     fn modules(&self) -> Result<[ModuleText; 2], Error> {
         match (&self.b, self.sizes.as_slice()) {
-            (Some(b), _) => both(module(&self.a), module(b)),
+            (Some(b), _) => {
+                // Both are read before anything is generated, which may take minutes.
+                let [a, b] = both(source(&self.a), source(b))?;
+                both(a.module(), b.module())
+            }
             (None, [first, second]) => {
                 let read = read(&self.a)?;
                 let loaded = watched(|progress| with_gains(&read, progress))?;
@@ -68,21 +72,33 @@ fn sized(loaded: &Loaded, size: &Size) -> Result<ModuleText, Error> {
     ModuleText::new(size.label(), generation.module()?, &loaded.path)
 }
 
-/// The module at `path`, or that of the specification at `path`.
-fn module(path: &Path) -> Result<ModuleText, Error> {
+/// What is compared: a module, or the specification of one.
+enum Source {
+    Module(ModuleText),
+    Specification(Loaded),
+}
+
+fn source(path: &Path) -> Result<Source, Error> {
     if path.extension().is_some_and(|end| end == "rs") {
-        return ModuleText::read(path);
+        return ModuleText::read(path).map(Source::Module);
     }
-    let loaded = read(path)?;
-    let generation = watched(|progress| Generation::with_progress(loaded, &Effort::default(), progress))?;
-    ModuleText::new(path.display().to_string(), generation.module()?, path)
+    read(path).map(Source::Specification)
+}
+
+impl Source {
+    fn module(self) -> Result<ModuleText, Error> {
+        let loaded = match self {
+            Self::Module(text) => return Ok(text),
+            Self::Specification(loaded) => loaded,
+        };
+        let path = loaded.path.clone();
+        let generation = watched(|progress| Generation::with_progress(loaded, &Effort::default(), progress))?;
+        ModuleText::new(path.display().to_string(), generation.module()?, &path)
+    }
 }
 
 /// Both, or the faults of both.
-fn both(
-    first: Result<ModuleText, Error>,
-    second: Result<ModuleText, Error>,
-) -> Result<[ModuleText; 2], Error> {
+fn both<T>(first: Result<T, Error>, second: Result<T, Error>) -> Result<[T; 2], Error> {
     match (first, second) {
         (Err(Error::Input(mut faults)), Err(Error::Input(more))) => {
             faults.extend(more.into_iter().filter(|fault| !faults.contains(fault)).collect::<Vec<_>>());

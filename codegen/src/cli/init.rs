@@ -1,22 +1,20 @@
 //! `gramforge init`: a first specification.
 
+mod trial;
+
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::progress::watched;
 use super::show_warnings;
-use crate::bounds::Effort;
-use crate::cache::Cache;
 use crate::error::{Diagnostics, Error};
 use crate::init::{Example, First, Request, TRIALS, example, first};
-use crate::load::SCHEMA;
+use crate::load::{SCHEMA, module_name};
 use crate::output::{Wanted, write_all};
-use crate::pipeline::Generation;
-use crate::progress::Stage;
 use crate::spec::LawSpec;
+use trial::{Tried, tried};
 
 /// Writes a first specification for a robot: complete, with comments, and tried out.
 #[derive(Debug, Args)]
@@ -34,7 +32,7 @@ pub(super) struct Init {
     /// The specification file to write. Default: NAME.jsonc in the working directory. The schema is written next to it.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Name of the generated module. Default: the robot's.
+    /// Name of the generated module. Default: that of the specification file, which is the robot's where --out is not given.
     #[arg(long, conflicts_with = "example")]
     name: Option<String>,
     /// The link at which the arm ends. Default: the likeliest; all are listed.
@@ -81,7 +79,7 @@ impl Init {
         wanted.extend(files.iter().skip(1).map(|(name, text)| (beside(name), *text)));
         wanted.push((beside(SCHEMA_NAME), SCHEMA));
         let written = self.write(&wanted)?;
-        Ok(format!("{written}\n{}", next(&out)))
+        Ok(format!("{written}\n{}", next(&out, true)))
     }
 
     fn robot(&self, urdf: &Path) -> Result<String, Error> {
@@ -95,7 +93,7 @@ impl Init {
         let mut request = Request {
             urdf: urdf.to_path_buf(),
             out: self.out.clone().unwrap_or_else(|| PathBuf::from("arm.jsonc")),
-            name: self.name.clone(),
+            name: self.name.clone().or(self.out.as_deref().map(named_after)),
             tip: self.tip.clone(),
             law,
         };
@@ -105,12 +103,16 @@ impl Init {
         }
         self.refuse_standing(&[request.out.clone(), request.out.with_file_name(SCHEMA_NAME)])?;
         show_warnings(&begun.warnings);
-        let (first, tried) =
-            if self.untried { (first(&request, TRIALS[0])?, String::new()) } else { tried(&request)? };
+        let Tried { first, said, good } = match self.untried {
+            true => Tried { first: first(&request, TRIALS[0])?, said: String::new(), good: true },
+            false => tried(&request)?,
+        };
         let wanted =
             [(request.out.clone(), first.text.as_str()), (request.out.with_file_name(SCHEMA_NAME), SCHEMA)];
         let written = self.write(&wanted)?;
-        Ok(format!("{written}{}{tried}\n{}", about(&first), next(&request.out)))
+        let module = &first.loaded.spec.name;
+        let named = format!("Module: {module}, in {module}.rs\n");
+        Ok(format!("{written}{named}{}{said}\n{}", about(&first), next(&request.out, good)))
     }
 
     /// Writes the files and says so.
@@ -140,86 +142,9 @@ impl Init {
     }
 }
 
-/// The first specification with a promise, of those whose errors converge faster or slower; the last one otherwise. What is
-/// promised, in words.
-fn tried(request: &Request) -> Result<(First, String), Error> {
-    let kept = Kept::new();
-    let mut last = None;
-    for trial in TRIALS {
-        let first = first(request, trial)?;
-        let generation = watched(|progress| {
-            let loaded = first.loaded.clone();
-            let _stage = Stage::new(progress, "first design", 1);
-            Generation::cached(loaded, &Effort::default(), progress, kept.cache.as_ref())
-        });
-        let said = match &generation {
-            Err(Error::Input(faults)) => refused(faults),
-            Err(_) => return Err(generation.err().unwrap_or(Error::Internal("a result was lost".into()))),
-            Ok(generation) => promised(generation),
-        };
-        match said {
-            Ok(text) => return Ok((first, text)),
-            Err(text) => last = Some((first, text)),
-        }
-    }
-    last.ok_or_else(|| Error::Internal("no specification was tried".into()))
-}
-
-/// What one trial leaves for the next: the model and its bounds, in a folder that goes with it. Nothing is kept where the folder is
-/// there already: what lies in it may be another's.
-struct Kept {
-    folder: Option<PathBuf>,
-    cache: Option<Cache>,
-}
-
-impl Kept {
-    fn new() -> Self {
-        let folder = std::env::temp_dir().join(format!("gramforge-init-{}", std::process::id()));
-        let folder = fs::create_dir(&folder).is_ok().then_some(folder);
-        Self { cache: folder.as_deref().and_then(Cache::below), folder }
-    }
-}
-
-impl Drop for Kept {
-    fn drop(&mut self) {
-        if let Some(folder) = &self.folder {
-            // Nothing depends on it.
-            let _ = fs::remove_dir_all(folder);
-        }
-    }
-}
-
-/// Why the design was refused.
-fn refused(faults: &[crate::error::Diagnostic]) -> Result<String, String> {
-    let list: Vec<String> = faults
-        .iter()
-        .map(|fault| format!("  {}: {}; {}\n", fault.field, fault.problem, fault.help))
-        .collect();
-    Err(format!("Tried out: refused. Change the specification first:\n{}", list.concat()))
-}
-
-/// What is promised of the loop; an error where that is nothing although it could be something.
-fn promised(generation: &Generation) -> Result<String, String> {
-    let verdict = generation.verdict();
-    let Some(statement) = generation.statement() else {
-        return Ok(format!("Tried out: {verdict}\n"));
-    };
-    let kind = statement.kind.name();
-    let mut out = format!("Tried out: {verdict}\nGuarantee: {kind}");
-    if let Some(sampled) = statement.promised() {
-        let reach = sampled.reach.iter().fold(0.0_f64, |most, reach| most.max(*reach));
-        let end = sampled.end_error.iter().fold(0.0_f64, |most, reach| most.max(*reach));
-        out += &format!(
-            "; |q - q_d| stays below {:.2} mrad (mm), at the end below {:.3}",
-            1e3 * reach,
-            1e3 * end
-        );
-    } else if let Some(reason) = statement.reasons.first() {
-        out += &format!(": {reason}");
-    }
-    out.push('\n');
-    let none = statement.promised().is_none() && kind == "none";
-    if none { Err(out) } else { Ok(out) }
+/// The name of a module after its specification file.
+fn named_after(out: &Path) -> String {
+    module_name(&out.file_stem().unwrap_or_default().to_string_lossy())
 }
 
 /// What was chosen, and what else there is.
@@ -245,8 +170,9 @@ fn about(first: &First) -> String {
         .collect();
     if !bare.is_empty() {
         out += &format!(
-            "Armature: zero for {}. Write it under `arm.joints`:\n  without it wrists look too light, and gains and \
-             guarantee are those of another arm\n",
+            "Armature: zero for {}.\n  Write it under `arm.joints`: the inertia of the rotor times the square of the gear ratio,\n  mostly 0.05 \
+             to 1 kg m^2. Without it wrists look too light, gains and guarantee are those of\n  another arm, and often there is no \
+             guarantee.\n",
             crate::text::listed(&bare)
         );
     }
@@ -257,8 +183,8 @@ fn about(first: &First) -> String {
     out
 }
 
-/// What to run next.
-fn next(out: &Path) -> String {
+/// What to run next; `good` where the specification can be used as it is.
+fn next(out: &Path, good: bool) -> String {
     let path = out.display();
     let stem = out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let commands = [
@@ -270,5 +196,6 @@ fn next(out: &Path) -> String {
     ];
     let width = commands.iter().map(|(command, _)| command.chars().count()).max().unwrap_or_default();
     let line = |(command, what): &(String, &str)| format!("  {command:width$}  {what}\n");
-    format!("Next:\n{}", commands.iter().map(line).collect::<String>())
+    let when = if good { "Next" } else { "Once it is changed" };
+    format!("{when}:\n{}", commands.iter().map(line).collect::<String>())
 }

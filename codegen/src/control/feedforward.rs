@@ -110,14 +110,15 @@ impl Feedforward {
         let friction = coulomb.iter().map(|[forwards, backwards]| forwards.max(-backwards));
         let takes = self.torque.iter().zip(&self.seen).zip(friction).map(|((b, s), f)| (b + f, s + f));
         (1..)
-            .zip(takes.zip(arm.joints.iter().map(|joint| joint.limits.torque)))
-            .filter_map(|(number, ((bound, seen), limit))| {
-                let limit = limit.filter(|&limit| bound >= limit)?;
+            .zip(takes.zip(&arm.joints))
+            .filter_map(|(number, ((bound, seen), joint))| {
+                let limit = joint.limits.torque.filter(|&limit| bound >= limit)?;
                 let (may, taken) = if seen >= limit { ("takes", seen) } else { ("may take", bound) };
                 Some(format!(
-                    "the desired motion {may} {} of joint {number}, its torque limit is {}",
+                    "the desired motion {may} {} of joint {number}, its torque limit is {} {}",
                     decimal(taken, 4),
-                    scientific(limit)
+                    scientific(limit),
+                    joint.kind.torque_unit()
                 ))
             })
             .collect()

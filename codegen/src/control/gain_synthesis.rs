@@ -34,7 +34,12 @@ pub(super) fn tune(stage: &Stage, request: &GainRequest) -> Result<Tuning, Error
     let scene = Scene::new(stage, &target);
     let obstacles = obstacles(stage, &scene, &own);
     if !obstacles.is_empty() {
-        let help = "change the motion, the measure or the limits: gains cannot remove this obstacle";
+        let help = if scene.certified {
+            "change the motion, the measure or the torque limits: no gains remove this obstacle"
+        } else {
+            "write the armature of the drives, without which wrists look too light; or narrow `measure.tube.position_error` or the \
+             intervals of uncertainty: no gains remove this obstacle"
+        };
         faults.push("control.design", format!("cannot be met: {}", obstacles.join("; ")), help);
         return Err(faults.into_error());
     }
@@ -139,7 +144,7 @@ fn too_fast(scene: &Scene, request: &GainRequest, period: f64, faults: &mut Diag
     faults.push(
         "control.design.convergence_time",
         format!("{asked} s is too short: with a period of {period} s it takes {least}"),
-        "allow more time, or shorten the period",
+        "allow more time, or shorten the period; both are in s, 1 ms is 0.001",
     );
 }
 
@@ -183,14 +188,15 @@ fn too_narrow(
             let (_, judged) = stage.judge(&nearest.tuning)?;
             let most = &judged.guarantee.initial_error_max;
             let less = most.iter().map(|e| short(e * 0.9995)).collect::<Vec<_>>().join(", ");
+            let wider = "widen `measure.tube.position_error`";
             let help = match most.iter().all(|e| *e > 0.0) {
-                true => format!("or take an initial position error of at most ({less})"),
-                false => "shorten the period, or write the armature of the drives".to_string(),
+                true => format!("{wider}, or take an initial position error of at most ({less})"),
+                false => format!("write the armature of the drives, shorten the period, or {wider}"),
             };
             faults.push(
                 "control.design",
                 format!("cannot be met: errors may reach {}, beyond the measure", list(errors)),
-                format!("widen `measure.tube.position_error`, {help}"),
+                help,
             );
         }
     }

@@ -27,7 +27,7 @@ impl Parts<'_> {
             (period >= most).then(|| {
                 let most = short(most);
                 format!(
-                    "the period of {} s is longer than the {most} s up to which the sampled loop is stable",
+                    "the period of {} s is longer than {most} s: up to that, every loop of the domain is shown to be stable",
                     scientific(period)
                 )
             }),
@@ -91,9 +91,10 @@ impl Parts<'_> {
                 .is_some_and(|taken| taken.torque[number - 1] + friction(number - 1) >= limit);
             if asked >= limit && !said {
                 reasons.push(format!(
-                    "the initial errors may ask {} of joint {number} in the first step, its torque limit is {}",
+                    "the initial errors may ask {} of joint {number} in the first step, its torque limit is {} {}",
                     short(asked),
-                    scientific(limit)
+                    scientific(limit),
+                    joint.kind.torque_unit()
                 ));
             }
         }

@@ -32,7 +32,7 @@ pub(super) fn read(text: &str, faults: &mut Diagnostics) -> Option<Value> {
     match result {
         Ok(value) => Some(value),
         Err(error) => {
-            let (problem, help) = syntax(&error);
+            let (problem, help) = syntax(text, &error);
             let file = faults.file().to_path_buf();
             faults.push_at(&file, Some(error.line()), "", problem, help);
             if let Some(fault) = faults.list_mut().last_mut() {
@@ -67,11 +67,13 @@ fn column(text: &str, error: &serde_json::Error) -> usize {
 }
 
 /// Problem and help for a syntax error.
-fn syntax(error: &serde_json::Error) -> (String, &'static str) {
+fn syntax(text: &str, error: &serde_json::Error) -> (String, &'static str) {
     let place = format!(" at line {} column {}", error.line(), error.column());
     let whole = error.to_string();
     let what = whole.strip_suffix(&place).unwrap_or(&whole);
-    let help = if what == "number out of range" {
+    let help = if text.trim_start().starts_with('<') {
+        "for a robot file run `gramforge init FILE` first: it writes a specification"
+    } else if what == "number out of range" {
         "write a finite number, below 1.8e308 in magnitude"
     } else if error.is_eof() {
         "complete the file: a quote, bracket or brace is not closed"

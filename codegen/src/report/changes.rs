@@ -1,8 +1,9 @@
 //! What differs between two modules, in words.
 
 use super::grid::Grid;
+use crate::bounds::printed_up;
 use crate::changes::{Changes, Group, Moved, Part};
-use crate::number::{percent, short};
+use crate::number::{percent, scientific, short};
 
 /// Numbers of a group that are shown.
 const SHOWN: usize = 10;
@@ -54,7 +55,7 @@ fn by_joint(title: &str, both: &[Option<Vec<f64>>; 2]) -> String {
     let mut grid = Grid::new(["joint", "before", "after"]);
     for i in 0..joints {
         let cell = |values: &Option<Vec<f64>>| {
-            values.as_ref().and_then(|x| x.get(i)).map_or("-".to_string(), |x| short(*x))
+            values.as_ref().and_then(|x| x.get(i)).map_or("-".to_string(), |x| printed_up(*x))
         };
         grid.push([(i + 1).to_string(), cell(&both[0]), cell(&both[1])]);
     }
@@ -69,7 +70,9 @@ fn numbers(part: &Part) -> String {
         Group::Guarantee => "Guarantee",
     };
     let mut grid = Grid::new(["number", "before", "after"]);
-    let cell = |value: Option<f64>| value.map_or("-".to_string(), short);
+    // A bound stands as the module has it: rounded, it might be none.
+    let shown = if matches!(part.group, Group::Bounds | Group::Guarantee) { scientific } else { short };
+    let cell = |value: Option<f64>| value.map_or("-".to_string(), shown);
     for Moved { name, before, after } in part.moved.iter().take(SHOWN) {
         let name = match name.chars().count() <= NAME {
             true => name.clone(),

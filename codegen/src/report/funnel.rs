@@ -1,7 +1,6 @@
 //! Runs inside the funnel: what is certified of the errors over time, and the largest that runs have found.
 
 use super::figure::{Figure, Panel};
-use super::position_unit;
 use super::series::curve;
 use crate::arm::Joint;
 use crate::error::Error;
@@ -25,7 +24,7 @@ pub fn funnel_plot(sampled: &Sampled, found: &MonteCarlo, joints: &[Joint]) -> R
         let seen = found.picture.largest.iter().map(|errors| height(errors[i]));
         Panel {
             title: format!("{}: position error", joint.name),
-            y: format!("largest error ({})", position_unit(joint.kind)),
+            y: format!("largest error ({})", joint.kind.position_unit()),
             curves: [curve(&certified, own), curve(&found.picture.time, seen)],
             logarithmic: true,
         }

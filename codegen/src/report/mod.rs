@@ -29,24 +29,7 @@ pub use sizes::{size_line, sizes_table};
 pub use sizes_csv::sizes_csv;
 pub use table::{bounds_table, chatter_table, claims_table, metrics_table, operations_table};
 
-use crate::arm::JointKind;
 use crate::spec::LawSpec;
-
-/// Unit of a joint's position.
-fn position_unit(kind: JointKind) -> &'static str {
-    match kind {
-        JointKind::Revolute => "rad",
-        JointKind::Prismatic => "m",
-    }
-}
-
-/// Unit of a joint's torque or force.
-fn torque_unit(kind: JointKind) -> &'static str {
-    match kind {
-        JointKind::Revolute => "N·m",
-        JointKind::Prismatic => "N",
-    }
-}
 
 /// A law in words.
 fn law_name(law: LawSpec, boundary_layer: bool) -> &'static str {

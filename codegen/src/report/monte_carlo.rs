@@ -1,8 +1,8 @@
 //! What many runs have found, beside what is certified.
 
 use super::grid::Grid;
-use super::{position_unit, torque_unit};
 use crate::arm::Joint;
+use crate::bounds::printed_up;
 use crate::number::short;
 use crate::simulate::MonteCarlo;
 
@@ -39,11 +39,14 @@ pub fn monte_carlo_table(
     let mut grid = Grid::new(header);
     for (i, joint) in joints.iter().enumerate() {
         let mut row =
-            vec![format!("{} ({}, {})", joint.name, position_unit(joint.kind), torque_unit(joint.kind))];
-        let cell = |values: &[f64]| values.get(i).map_or(String::new(), |value| short(*value));
+            vec![format!("{} ({}, {})", joint.name, joint.kind.position_unit(), joint.kind.torque_unit())];
+        let cell = |values: &[f64], shown: fn(f64) -> String| {
+            values.get(i).map_or(String::new(), |value| shown(*value))
+        };
         for (_, values, bound) in &columns {
-            row.push(cell(values));
-            row.extend(bound.map(cell));
+            row.push(cell(values, short));
+            // A bound that were rounded down would be none.
+            row.extend(bound.map(|bound| cell(bound, printed_up)));
         }
         grid.push(row);
     }

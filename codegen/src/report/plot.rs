@@ -1,8 +1,8 @@
 //! One figure of a comparison: errors, torques and V over time.
 
 use super::figure::{Curves, Figure, Panel};
+use super::law_name;
 use super::series::curve;
-use super::{law_name, position_unit, torque_unit};
 use crate::arm::{Joint, JointKind};
 use crate::error::Error;
 use crate::simulate::{Comparison, Run};
@@ -58,7 +58,7 @@ pub(super) fn curves(runs: [&Run; 2], value: &dyn Fn(&Run, usize) -> f64) -> Cur
 pub(super) fn error_panel(runs: [&Run; 2], joint: &Joint, i: usize) -> Panel {
     Panel {
         title: format!("{}: position error", joint.name),
-        y: format!("error ({})", position_unit(joint.kind)),
+        y: format!("error ({})", joint.kind.position_unit()),
         curves: curves(runs, &|run, k| run.trace.position_error[k][i]),
         logarithmic: false,
     }
@@ -72,7 +72,7 @@ pub(super) fn torque_panel(runs: [&Run; 2], joint: &Joint, i: usize) -> Panel {
     };
     Panel {
         title: format!("{}: {what}", joint.name),
-        y: format!("{what} ({})", torque_unit(joint.kind)),
+        y: format!("{what} ({})", joint.kind.torque_unit()),
         curves: curves(runs, &|run, k| run.trace.torque[k][i]),
         logarithmic: false,
     }

@@ -59,7 +59,7 @@ fn trajectories(runs: &Figures) -> Vec<Vec<Panel>> {
         let actual = desired.iter().zip(&trace.position_error).map(|(q, e)| q[i] + e[i]);
         vec![Panel {
             title: format!("{}: position", joint.name),
-            y: format!("position ({})", super::position_unit(joint.kind)),
+            y: format!("position ({})", joint.kind.position_unit()),
             curves: [curve(&trace.time, desired.iter().map(|q| q[i])), curve(&trace.time, actual)],
             logarithmic: false,
         }]

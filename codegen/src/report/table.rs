@@ -1,7 +1,7 @@
 //! Tables for the terminal.
 
 use super::grid::Grid;
-use super::{Claim, law_name, position_unit, torque_unit};
+use super::{Claim, law_name};
 use crate::arm::{Joint, JointKind};
 use crate::bounds::Bounds;
 use crate::graph::Operations;
@@ -15,10 +15,10 @@ pub fn metrics_table(comparison: &Comparison, joints: &[Joint]) -> String {
     let name = law_name(comparison.law_kind, comparison.boundary_layer.is_some());
     let mut grid = Grid::new(["", "law (16), exact model", &format!("{name}, this model")]);
     let quantities: [(&str, Unit, PerJoint); 4] = [
-        ("rms error", position_unit, |m| &m.rms_error),
-        ("final error", position_unit, |m| &m.final_error),
-        ("peak torque", torque_unit, |m| &m.peak_torque),
-        ("torque variation", torque_unit, |m| &m.torque_total_variation),
+        ("rms error", JointKind::position_unit, |m| &m.rms_error),
+        ("final error", JointKind::position_unit, |m| &m.final_error),
+        ("peak torque", JointKind::torque_unit, |m| &m.peak_torque),
+        ("torque variation", JointKind::torque_unit, |m| &m.torque_total_variation),
     ];
     for (quantity, unit, values) in quantities {
         for (joint, (&exact, &law)) in joints.iter().zip(values(exact).iter().zip(values(law))) {
@@ -34,7 +34,7 @@ pub fn metrics_table(comparison: &Comparison, joints: &[Joint]) -> String {
         let [exact, law] = values;
         grid.push([label, exact, law]);
     };
-    whole("rms error, all joints".to_string(), both(&|run| short(run.metrics.rms_error_total)));
+    whole("rms error, all joints together".to_string(), both(&|run| short(run.metrics.rms_error_total)));
     let time = |time: Option<f64>, none: &str| time.map_or(none.to_string(), |t| format!("{t:.3}"));
     whole(
         format!("within {CONVERGED} for good after (s)"),

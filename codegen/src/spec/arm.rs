@@ -69,6 +69,24 @@ pub enum JointKind {
     Prismatic,
 }
 
+impl JointKind {
+    /// Unit of the joint's position.
+    pub fn position_unit(self) -> &'static str {
+        match self {
+            Self::Revolute => "rad",
+            Self::Prismatic => "m",
+        }
+    }
+
+    /// Unit of the joint's torque or force.
+    pub fn torque_unit(self) -> &'static str {
+        match self {
+            Self::Revolute => "N·m",
+            Self::Prismatic => "N",
+        }
+    }
+}
+
 /// One row of a Denavit–Hartenberg table with the link's inertia and drive.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]

@@ -4,7 +4,8 @@ use core::array::from_fn;
 
 use crate::cholesky::Cholesky;
 use crate::law::coulomb_torque;
-use crate::vector::first_not_finite;
+use crate::step::clamp;
+use crate::vector::{along, first_not_finite, unit};
 use crate::{Model, PlantError, Real};
 
 /// Anything with `N` joints that answers torque with acceleration.
@@ -14,19 +15,29 @@ pub trait Plant<T: Real, const N: usize> {
     /// # Errors
     /// When the plant has no acceleration there.
     fn acceleration(&self, q: &[T; N], qd: &[T; N], torque: &[T; N]) -> Result<[T; N], PlantError>;
+
+    /// The velocity after a short step, rad/s or m/s, where the integrator goes from `before` to `after`: 0 for a joint that dry
+    /// friction has brought to rest on the way.
+    fn stopped(&self, _before: &[T; N], after: [T; N]) -> [T; N] {
+        after
+    }
 }
 
 impl<T: Real, P: Plant<T, N> + ?Sized, const N: usize> Plant<T, N> for &P {
     fn acceleration(&self, q: &[T; N], qd: &[T; N], torque: &[T; N]) -> Result<[T; N], PlantError> {
         (**self).acceleration(q, qd, torque)
     }
+
+    fn stopped(&self, before: &[T; N], after: [T; N]) -> [T; N] {
+        (**self).stopped(before, after)
+    }
 }
 
 /// Equation (1) of a model solved for the acceleration, with Coulomb friction F: D q̈ = τ − C q̇ − B q̇ − G − F.
 ///
-/// N + 2 model calls and a Cholesky solve. F_i is the level of the direction of q̇_i; at q̇_i = 0 it is whatever
-/// balances the rest of the right side of that joint, up to the levels. The friction is not smoothed: near rest a
-/// Runge–Kutta step crosses the jump and its error there is of first order in the step.
+/// N + 2 model calls and a Cholesky solve. F_i is the level of the direction of q̇_i. At q̇_i = 0 the joint sticks: F_i is what keeps
+/// its acceleration 0, the pull of the other joints included, up to the levels. The friction is not smoothed: a joint whose
+/// velocity changes its sign within a step is at rest after it, and leaves that rest only where more than the levels pulls at it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidPlant<M: Model<N>, const N: usize> {
     /// The arm; its bounds are not used.
@@ -54,8 +65,55 @@ impl<M: Model<N>, const N: usize> Plant<M::Scalar, N> for RigidPlant<M, N> {
             let finite = mass_matrix.iter().all(|row| first_not_finite(row).is_none());
             return Err(if finite { PlantError::MassMatrix } else { PlantError::Diverged });
         };
-        Ok(inertia.solve(&net))
+        let free = inertia.solve(&net);
+        let sticks: [bool; N] = from_fn(|i| qd[i] == M::Scalar::ZERO && dry(&self.coulomb[i]));
+        if !sticks.contains(&true) {
+            return Ok(free);
+        }
+        let held = from_fn(|i| torque[i] - bias[i] - net[i]);
+        Ok(self.at_rest(&inertia, &sticks, held, free))
     }
+
+    fn stopped(&self, before: &[M::Scalar; N], after: [M::Scalar; N]) -> [M::Scalar; N] {
+        let zero = M::Scalar::ZERO;
+        let crosses =
+            |i: usize| (before[i] > zero && after[i] < zero) || (before[i] < zero && after[i] > zero);
+        from_fn(|i| if crosses(i) && dry(&self.coulomb[i]) { zero } else { after[i] })
+    }
+}
+
+impl<M: Model<N>, const N: usize> RigidPlant<M, N> {
+    /// `acceleration` under the friction `force`, after the friction of the joints that stick has taken it to 0 as far as its levels
+    /// allow: Gauss–Seidel over these joints.
+    fn at_rest(
+        &self,
+        inertia: &Cholesky<M::Scalar, N>,
+        sticks: &[bool; N],
+        mut force: [M::Scalar; N],
+        mut acceleration: [M::Scalar; N],
+    ) -> [M::Scalar; N] {
+        let mobility: [[M::Scalar; N]; N] = from_fn(|i| inertia.solve(&unit(i)));
+        for _ in 0..SWEEPS {
+            for i in (0..N).filter(|&i| sticks[i]) {
+                let [forward, backward] = self.coulomb[i];
+                let wanted = clamp(force[i] + acceleration[i] / mobility[i][i], backward, forward);
+                let change = wanted - force[i];
+                force[i] = wanted;
+                acceleration = along(&acceleration, -change, &mobility[i]);
+            }
+        }
+        // What the sweeps leave of a joint that is held would make it creep.
+        let held = |i: usize| sticks[i] && self.coulomb[i][1] < force[i] && force[i] < self.coulomb[i][0];
+        from_fn(|i| if held(i) { M::Scalar::ZERO } else { acceleration[i] })
+    }
+}
+
+/// Sweeps over the joints that stick.
+const SWEEPS: usize = 40;
+
+/// Whether a joint has Coulomb friction.
+fn dry<T: Real>(levels: &[T; 2]) -> bool {
+    *levels != [T::ZERO; 2]
 }
 
 /// Coulomb friction of one joint, N·m; at rest it sticks.
@@ -103,6 +161,25 @@ mod tests {
         assert_eq!(plant.acceleration(&q, &[0.0; 2], &[g0 - 2.9, g1 + 0.4]), Ok([0.0; 2]));
         let slipping = plant.acceleration(&q, &[0.0; 2], &[g0 + 2.1, g1]).unwrap();
         assert!(slipping[0] > 0.0);
+    }
+
+    #[test]
+    fn a_joint_at_rest_stays_there_while_another_pulls_at_it() {
+        let arm = TwoLink::<f64>::EXAMPLE;
+        let plant = RigidPlant { model: arm, coulomb: [[0.0; 2], [4.0, -4.0]] };
+        let q = [0.4, -1.3];
+        // The friction that the second joint needs, from its row of D q̈ + G = τ − F with q̈ = (a, 0).
+        let [g0, g1] = arm.gravity(&q);
+        let d = arm.mass_matrix(&q);
+        for push in [3.0, -3.0] {
+            let solved = plant.acceleration(&q, &[0.0; 2], &[g0 + push, g1]).unwrap();
+            assert!((solved[0] - push / d[0][0]).abs() < 1e-12, "{solved:?}");
+            assert!((d[1][0] * solved[0]).abs() < 4.0 && solved[1] == 0.0, "{solved:?}");
+        }
+        // More than the friction holds: it slips with all of its friction against it.
+        let solved = plant.acceleration(&q, &[0.0; 2], &[g0, g1 + 9.0]).unwrap();
+        let torque = [d[0][0] * solved[0] + d[0][1] * solved[1], d[1][0] * solved[0] + d[1][1] * solved[1]];
+        assert!(torque[0].abs() < 1e-9 && (torque[1] - 5.0).abs() < 1e-9 && solved[1] > 0.0, "{torque:?}");
     }
 
     #[test]

@@ -211,7 +211,7 @@ fn a_torque_limit_below_the_desired_motion_voids_the_guarantee() {
     assert!(!weak.holds);
     assert_eq!(weak.reasons.len(), 1, "{:?}", weak.reasons);
     assert!(weak.reasons[0].starts_with("the desired motion takes 42.7994"), "{:?}", weak.reasons);
-    assert!(weak.reasons[0].ends_with("of joint 2, its torque limit is 42"), "{:?}", weak.reasons);
+    assert!(weak.reasons[0].ends_with("of joint 2, its torque limit is 42 N·m"), "{:?}", weak.reasons);
 }
 
 #[test]

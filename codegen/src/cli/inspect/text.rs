@@ -56,17 +56,13 @@ pub(super) fn text(view: &Inspection, generation: &Generation) -> String {
         lines.push(gains(control));
         lines.push(robust_gain(control));
         lines.push(format!("control: k* = {}, V_max(0) = {} J", short(control.k_star), short(control.v_max)));
-        lines.push(format!(
-            "largest errors: position ({}), velocity ({})",
-            list(control.position_error),
-            list(control.velocity_error)
-        ));
-    }
-    if let Some(promised) = &view.continuous {
-        lines.extend(continuous(promised));
     }
     if let Some(promised) = &view.guarantee {
         lines.extend(guarantee(promised));
+    }
+    if let (Some(control), Some(promised)) = (&view.control, &view.continuous) {
+        let sampled = view.guarantee.as_ref().is_some_and(|promised| promised.kind == "sampled");
+        lines.extend(continuous(promised, control, sampled));
     }
     if let Some(limits) = &view.reference {
         lines.extend(reference(limits));
@@ -99,12 +95,21 @@ fn list(x: &[f64]) -> String {
     x.iter().map(|&e| printed_up(e)).collect::<Vec<_>>().join(", ")
 }
 
-fn continuous(promised: &GuaranteeView) -> Vec<String> {
+fn continuous(promised: &GuaranteeView, control: &ControlView, sampled: bool) -> Vec<String> {
     let kind = if promised.inertia_certified { "certified" } else { "sampled" };
     let most = promised.initial_error_max.iter().map(|&e| printed_down(e)).collect::<Vec<_>>().join(", ");
-    let holds = if promised.holds { "holds, as long as no torque limit cuts in" } else { "does not hold" };
+    let holds = match (promised.holds, sampled) {
+        (true, _) => "holds, as long as no torque limit cuts in",
+        (false, true) => "does not hold; the guarantee above stands without it",
+        (false, false) => "does not hold",
+    };
     let mut lines = vec![
-        format!("level of V, for the continuous law: {holds}"),
+        format!("level of V, a proof for the continuous law: {holds}"),
+        format!(
+            "  errors while V stays below its level: position ({}), velocity ({})",
+            list(control.position_error),
+            list(control.velocity_error)
+        ),
         format!("  final error: ({}), once the initial errors have died away", list(promised.final_error)),
         format!("  largest initial error: ({most})"),
         format!(

@@ -5,7 +5,6 @@ use super::study::Study;
 use super::words::{self, counted, plain};
 use crate::arm::{Arm, JointKind, Transform};
 use crate::motion::Motion;
-use crate::report::{position_unit, torque_unit};
 
 /// Instants at which the arm is known to the page; the first and the last are the ends of the motion.
 const INSTANTS: u32 = 60;
@@ -112,7 +111,7 @@ fn limits(arm: &Arm) -> Table {
     let mut table = Table::new("Joints and their limits", head);
     let none = || "none".to_string();
     for joint in &arm.joints {
-        let unit = position_unit(joint.kind);
+        let unit = joint.kind.position_unit();
         let (inertia, moves) = match joint.kind {
             JointKind::Revolute => ("kg·m²", "turns"),
             JointKind::Prismatic => ("kg", "slides"),
@@ -126,7 +125,7 @@ fn limits(arm: &Arm) -> Table {
             with(limits.position.map(|p| p[1]), unit),
             with(limits.velocity, &format!("{unit}/s")),
             with(limits.acceleration, &format!("{unit}/s²")),
-            with(limits.torque, torque_unit(joint.kind)),
+            with(limits.torque, joint.kind.torque_unit()),
             format!("{} {inertia}", words::plain(joint.armature)),
         ]);
     }

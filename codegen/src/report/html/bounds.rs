@@ -4,7 +4,6 @@ use super::figure::{Axis, Bar, Bars, Figure, Panel, Role, Table, drawn_up};
 use super::study::Study;
 use super::words;
 use crate::bounds::Torque;
-use crate::report::torque_unit;
 
 /// The torque error by joint as a part of the peak torque, certified and found.
 pub(super) fn figure(study: &Study) -> Figure {
@@ -43,7 +42,7 @@ fn table(study: &Study, torque: &Torque) -> Table {
     let mut table = Table::new("Torque error by joint", head);
     let met = study.generation.met();
     for (i, joint) in joints.iter().enumerate() {
-        let unit = torque_unit(joint.kind);
+        let unit = joint.kind.torque_unit();
         let cell = |x: Option<f64>, up: bool| {
             x.map_or("not available".to_string(), |x| format!("{} {unit}", words::three(x, up)))
         };

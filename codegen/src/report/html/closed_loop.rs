@@ -6,7 +6,7 @@ use super::thin::{steps, thinned};
 use super::words::{self, counted};
 use crate::arm::{Joint, JointKind};
 use crate::guarantee::Sampled;
-use crate::report::{law_name, position_unit, torque_unit};
+use crate::report::law_name;
 use crate::simulate::{Comparison, Run};
 
 /// Smallest error that is drawn on a logarithmic axis, rad or m: below it rounding is all there is.
@@ -76,7 +76,7 @@ pub(super) fn funnel_figure(study: &Study) -> Option<Figure> {
             let name = format!("largest of {}", counted(found.runs, "run"));
             series.push(Series::curve(name, Role::Found, thinned(&found.picture.time, largest)));
         }
-        let y = Axis::logarithmic("position error", position_unit(joint.kind));
+        let y = Axis::logarithmic("position error", joint.kind.position_unit());
         Lines { title: joint.name.clone(), x: Axis::TIME, y, series }
     };
     let panels = panels(joints, panel);
@@ -131,7 +131,7 @@ pub(super) fn tracking_figure(study: &Study) -> Option<Figure> {
         if let Some(sampled) = promised {
             let (x, y): (Vec<f64>, Vec<f64>) = course(sampled, i, end).into_iter().unzip();
             let low = y.iter().map(|y| -y).collect();
-            let name = "certified: every run stays inside".to_string();
+            let name = "certified of this size: its every run stays inside".to_string();
             series.push(Series { name, role: Role::Certified, x, y, low });
         } else if design.guarantee.holds {
             let most = drawn_up(design.envelope.position_error[i]);
@@ -139,27 +139,29 @@ pub(super) fn tracking_figure(study: &Study) -> Option<Figure> {
             series.push(Series::between(name, Role::Certified, [0.0, end], [-most, most]));
         }
         series.extend(both(comparison, &|run, k| run.trace.position_error[k][i]));
-        let y = Axis::linear("position error", position_unit(joint.kind));
+        let y = Axis::linear("position error", joint.kind.position_unit());
         Lines { title: joint.name.clone(), x: Axis::TIME, y, series }
     };
     let panels = panels(joints, panel);
     let [exact, own] = [&comparison.exact, &comparison.law].map(|run| run.metrics.rms_error_total);
     let caption = format!(
-        "One simulated run from the initial error of the specification, on the exact arm. Root mean square of the error, all joints: \
-         {} with this size, {} with the exact model and no robust term. {}",
+        "One simulated run from the initial error of the specification, on the exact arm, of this size and of the exact model with no \
+         robust term. The band holds for this size alone. Root mean square of the length of the error, all joints together: {} with \
+         this size, {} with the other. {}",
         words::position(own, JointKind::Revolute, false),
         words::position(exact, JointKind::Revolute, false),
-        verdict(comparison)
+        verdict(comparison, study.generation.reduced().is_exact())
     );
     Some(Figure { caption, panels })
 }
 
-/// Which of both tracks better, in a sentence.
-fn verdict(comparison: &Comparison) -> &'static str {
+/// Which of both tracks better, in a sentence; `exact_model` where both have the exact one.
+fn verdict(comparison: &Comparison, exact_model: bool) -> &'static str {
     let [exact, own] = [&comparison.exact, &comparison.law].map(|run| &run.metrics);
     match (own.diverged_at, exact.diverged_at) {
         (Some(_), _) => "This size diverges: do not use it.",
         (None, Some(_)) => "The exact law diverges: check its gains.",
+        _ if exact_model => "Both have the exact model: what differs is the robust term.",
         _ if own.rms_error_total <= 1.05 * exact.rms_error_total => {
             "The smaller model costs no accuracy here."
         }
@@ -187,7 +189,7 @@ pub(super) fn torque_figure(study: &Study) -> Option<Figure> {
         }
         series.extend(both(comparison, &|run, k| run.trace.torque[k][i]));
         let name = if joint.kind == JointKind::Revolute { "torque" } else { "force" };
-        let y = Axis::linear(name, torque_unit(joint.kind));
+        let y = Axis::linear(name, joint.kind.torque_unit());
         Lines { title: joint.name.clone(), x: Axis::TIME, y, series }
     };
     let panels = panels(joints, panel);

@@ -6,7 +6,7 @@ use super::words::{self, three};
 use crate::arm::JointKind;
 use crate::bounds::printed_down;
 use crate::control::{Design, RobustGain};
-use crate::report::{law_name, torque_unit};
+use crate::report::law_name;
 
 /// The gains of the law by joint, and its period beside the longest stable one.
 pub(super) fn figure(study: &Study) -> Option<Figure> {
@@ -51,7 +51,7 @@ fn table(study: &Study, design: &Design) -> Table {
     let mut table = Table::new("Gains by joint (diagonals)", head);
     for (i, joint) in joints.iter().enumerate() {
         let (torque, rate) =
-            (torque_unit(joint.kind), if joint.kind == JointKind::Revolute { "rad" } else { "m" });
+            (joint.kind.torque_unit(), if joint.kind == JointKind::Revolute { "rad" } else { "m" });
         let mut row = vec![
             joint.name.clone(),
             format!("{} {torque}·s/{rate}", three(design.w[i][i], false)),

@@ -6,7 +6,6 @@ use super::words;
 use crate::arm::{Joint, JointKind};
 use crate::domain::Domain;
 use crate::motion::{Motion, Target};
-use crate::report::position_unit;
 
 /// Instants at which curves are taken.
 const INSTANTS: u32 = 150;
@@ -122,7 +121,7 @@ fn domain_panel(domain: &Domain, motion: Option<&Motion>, joint: &Joint, i: usiz
     }
     let points = time.into_iter().zip(desired).collect();
     series.push(Series::curve("desired", Role::Desired, points));
-    let y = Axis::linear("position", position_unit(joint.kind));
+    let y = Axis::linear("position", joint.kind.position_unit());
     Some(Lines { title: joint.name.clone(), x: Axis::TIME, y, series })
 }
 
@@ -130,7 +129,7 @@ fn domain_table(domain: &Domain, joints: &[Joint]) -> Table {
     let mut table = Table::new("Domain of the bounds", ["joint", "lowest", "highest"]);
     if let Domain::Workspace(limits) = domain {
         for (joint, [low, high]) in joints.iter().zip(limits) {
-            let unit = position_unit(joint.kind);
+            let unit = joint.kind.position_unit();
             let cell = |x: &f64| format!("{} {unit}", words::plain(*x));
             table.rows.push(vec![joint.name.clone(), cell(low), cell(high)]);
         }

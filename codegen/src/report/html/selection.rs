@@ -7,7 +7,6 @@ use super::study::Study;
 use super::words::{self, counted};
 use crate::domain::Measure;
 use crate::emit::functions;
-use crate::number::percent;
 use crate::reduction::{Ranked, ranked};
 
 /// Functions whose shares are shown.
@@ -45,14 +44,18 @@ pub(super) fn figure(study: &Study) -> Figure {
         Bar {
             label: lagrangian.functions[function].to_string(),
             values: vec![100.0 * share],
-            note: format!("{}, together {}", words::percent(share, false), percent(100.0 * sum.min(1.0))),
+            note: format!(
+                "adds {}, together {}",
+                words::percent(share, false),
+                words::percent(sum.min(1.0), false)
+            ),
             kept: all || kept.contains(&function),
         }
     });
     let bars = Bars {
-        title: "Share of each function, in the order of selection".to_string(),
-        axis: Axis::from(LEAST, "share of the model", "%"),
-        parts: vec![("share".to_string(), Role::Certified)],
+        title: "What each function adds to those above it, in the order of selection".to_string(),
+        axis: Axis::from(LEAST, "part of the mean square", "%"),
+        parts: vec![("adds".to_string(), Role::Certified)],
         stacked: false,
         rows: rows.collect(),
     };
@@ -68,16 +71,18 @@ fn caption(study: &Study, order: &[Ranked]) -> String {
         sum >= 0.99
     });
     let ranked = match enough {
-        Some(last) => format!("{} of {count} carry 99 % of the model", counted(last + 1, "function")),
+        Some(0) => format!("the first of {count} functions alone gives 99 % of the mean square"),
+        Some(last) => format!("the first {} of {count} functions give 99 % of the mean square", last + 1),
         None => format!(
-            "the first {} of {count} functions carry {} of the model",
+            "the first {} of {count} functions give {} of the mean square",
             order.len(),
             words::percent(sum, false)
         ),
     };
     format!(
-        "Weighted by the squares of what multiplies them along the motion or within the limits, {ranked}. Bars that are only \
-         outlined are left out at this size, which keeps {}.",
+        "Weighted by the squares of what multiplies them along the motion or within the limits, {ranked}. A function that goes along \
+         with one above it adds little, also where a model uses both. The mean square says nothing of the largest error: see the bounds. \
+         Bars that are only outlined are left out at this size, which keeps {}.",
         kept_in_words(study)
     )
 }

@@ -87,7 +87,12 @@ fn table(studies: &[Study]) -> Table {
         let part = |x: Option<f64>, up: bool| x.map_or("–".to_string(), |x| words::percent(x, up));
         table.rows.push(vec![
             study.label.clone(),
-            if row.exact { "all".to_string() } else { row.functions.to_string() },
+            match row.functions {
+                _ if row.exact => "all".to_string(),
+                // A simpler arm in place of functions.
+                0 => "–".to_string(),
+                functions => functions.to_string(),
+            },
             row.operations.total.to_string(),
             part(row.worst_fraction(), true),
             part(study.worst_found(), false),

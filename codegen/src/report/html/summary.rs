@@ -22,9 +22,12 @@ pub(super) fn figure(study: &Study) -> Figure {
     if let Some(statement) = generation.statement() {
         let (value, note) = match (statement.kind, study.promised()) {
             (Kind::Sampled, Some(sampled)) => {
-                let error = sampled.settled_error.as_ref().unwrap_or(&sampled.reach);
                 let joints = &generation.arm().joints;
-                ("sampled loop".to_string(), format!("tracks within {}, worst joint", worst(joints, error)))
+                let settled = sampled.settled_error.as_ref().map_or(String::new(), |error| {
+                    format!(", {} from {} on", worst(joints, error), words::time_up(sampled.settle))
+                });
+                let any = worst(joints, &sampled.reach);
+                ("sampled loop".to_string(), format!("within {any} at any time{settled}, worst joint"))
             }
             (Kind::Continuous, _) => {
                 ("continuous law".to_string(), "the held torque counts to first order".to_string())

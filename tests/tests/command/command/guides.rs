@@ -35,7 +35,7 @@ fn the_first_steps_are_commands_that_work_one_after_the_other() {
         let done = finish(gramforge().current_dir(folder.path()).args(&words)).expect(0);
         assert!(!done.stdout.is_empty(), "{line}: {done:#?}");
     }
-    for file in ["src/chain.rs", "ur5.svg", "ur5.html", "specs/gramforge.schema.json"] {
+    for file in ["src/ur5.rs", "ur5.svg", "ur5.html", "specs/gramforge.schema.json"] {
         assert!(folder.path().join(file).exists(), "{file}");
     }
 }
