@@ -74,22 +74,22 @@ fn sized(loaded: &Loaded, size: &Size) -> Result<ModuleText, Error> {
 
 /// What is compared: a module, or the specification of one.
 enum Source {
-    Module(ModuleText),
-    Specification(Loaded),
+    Module(Box<ModuleText>),
+    Specification(Box<Loaded>),
 }
 
 fn source(path: &Path) -> Result<Source, Error> {
     if path.extension().is_some_and(|end| end == "rs") {
-        return ModuleText::read(path).map(Source::Module);
+        return ModuleText::read(path).map(|text| Source::Module(Box::new(text)));
     }
-    read(path).map(Source::Specification)
+    read(path).map(|loaded| Source::Specification(Box::new(loaded)))
 }
 
 impl Source {
     fn module(self) -> Result<ModuleText, Error> {
         let loaded = match self {
-            Self::Module(text) => return Ok(text),
-            Self::Specification(loaded) => loaded,
+            Self::Module(text) => return Ok(*text),
+            Self::Specification(loaded) => *loaded,
         };
         let path = loaded.path.clone();
         let generation = watched(|progress| Generation::with_progress(loaded, &Effort::default(), progress))?;
