@@ -52,14 +52,8 @@ pub(super) fn check(control: &ControlSpec, spec: &Spec, joints: Option<usize>, f
     starts_outside(control, spec, joints, faults);
     let Some(tube) = &request.tube else { return };
     entries("control.design.tube", tube, joints, |v| v >= LEAST, "a number of at least 1e-6", faults);
-    let widest = match &spec.measure {
-        Some(MeasureSpec::Tube { position_error }) => position_error,
-        None if spec.motion.is_some() => &VectorSpec::Scalar(crate::domain::DEFAULT_TUBE),
-        _ => return,
-    };
-    let Some((wanted, widest)) = joints.and_then(|n| Some((tube.by_joint(n)?, widest.by_joint(n)?))) else {
-        return;
-    };
+    let both = |n| Some((tube.by_joint(n)?, measured(spec)?.by_joint(n)?));
+    let Some((wanted, widest)) = joints.and_then(both) else { return };
     let beyond = wanted.iter().zip(&widest).enumerate().filter(|(_, (wanted, widest))| wanted > widest);
     // One number for all joints is one mistake.
     let told = if matches!(tube, VectorSpec::Scalar(_)) { 1 } else { wanted.len() };
@@ -82,17 +76,19 @@ pub(super) fn check(control: &ControlSpec, spec: &Spec, joints: Option<usize>, f
     }
 }
 
+/// The tube for which the bounds hold; `None` where they hold for another domain.
+fn measured(spec: &Spec) -> Option<&VectorSpec> {
+    match &spec.measure {
+        Some(MeasureSpec::Tube { position_error }) => Some(position_error),
+        None if spec.motion.is_some() => Some(&VectorSpec::Scalar(crate::domain::DEFAULT_TUBE)),
+        _ => None,
+    }
+}
+
 /// An arm that may start outside the tube has no gains, which need not be sought.
 fn starts_outside(control: &ControlSpec, spec: &Spec, joints: Option<usize>, faults: &mut Diagnostics) {
-    let tube = match &spec.measure {
-        Some(MeasureSpec::Tube { position_error }) => position_error,
-        None if spec.motion.is_some() => &VectorSpec::Scalar(crate::domain::DEFAULT_TUBE),
-        _ => return,
-    };
-    let position = &control.initial_error.position;
-    let Some((start, tube)) = joints.and_then(|n| Some((position.by_joint(n)?, tube.by_joint(n)?))) else {
-        return;
-    };
+    let both = |n| Some((control.initial_error.position.by_joint(n)?, measured(spec)?.by_joint(n)?));
+    let Some((start, tube)) = joints.and_then(both) else { return };
     let beyond = start.iter().zip(&tube).position(|(start, tube)| start > tube);
     if let Some(i) = beyond {
         let (start, tube) = (scientific(start[i]), scientific(tube[i]));

@@ -131,7 +131,7 @@ pub(super) fn tracking_figure(study: &Study) -> Option<Figure> {
         if let Some(sampled) = promised {
             let (x, y): (Vec<f64>, Vec<f64>) = course(sampled, i, end).into_iter().unzip();
             let low = y.iter().map(|y| -y).collect();
-            let name = "certified of this size: its every run stays inside".to_string();
+            let name = "certified: every run of this size stays inside".to_string();
             series.push(Series { name, role: Role::Certified, x, y, low });
         } else if design.guarantee.holds {
             let most = drawn_up(design.envelope.position_error[i]);

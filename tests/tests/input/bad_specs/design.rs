@@ -79,6 +79,15 @@ const CASES: &[Case] = &[
         &["needs room for errors", "take the measure `tube`"],
     ),
     case(
+        "an arm that may start outside the tube",
+        |i| {
+            ask(i, json!({ "convergence_time": 1.5 }));
+            i.set("/control/initial_error/position", json!(10.0));
+        },
+        "control.initial_error.position",
+        &["is 10 of joint 1", "hold only up to 0.2", "take a smaller initial error"],
+    ),
+    case(
         "a period that no gains bear",
         |i| {
             ask(i, json!({ "convergence_time": 1.5, "period": 0.1 }));
