@@ -23,8 +23,8 @@ use crate::sizes::{Size, run, with_gains};
 pub(super) struct Diff {
     /// The first specification or module.
     a: PathBuf,
-    /// The second one.
-    #[arg(required_unless_present = "sizes", conflicts_with = "sizes")]
+    /// The second one; without --sizes.
+    #[arg(conflicts_with = "sizes")]
     b: Option<PathBuf>,
     /// Two sizes of the specification A, such as exact,xi6: see `gramforge sweep`.
     #[arg(long, value_delimiter = ',')]
@@ -57,6 +57,10 @@ impl Diff {
                 let read = read(&self.a)?;
                 let loaded = watched(|progress| with_gains(&read, progress))?;
                 both(sized(&loaded, first), sized(&loaded, second))
+            }
+            (None, []) => {
+                let help = "name a second one, or two sizes of a specification: --sizes exact,xi6";
+                Err(Error::input(Path::new("arguments"), "", "name one module to compare", help))
             }
             (None, sizes) => {
                 let problem = format!("names {} sizes", sizes.len());

@@ -1,7 +1,7 @@
 //! Does the motion keep to the joints' limits?
 
 use super::Motion;
-use crate::arm::Arm;
+use crate::arm::{Arm, JointKind};
 use crate::error::Diagnostics;
 use crate::number::{decimal, scientific};
 use crate::numerics::Interval;
@@ -54,7 +54,14 @@ pub fn check_limits(motion: &Motion, arm: &Arm, faults: &mut Diagnostics) {
                         scientific(low),
                         scientific(high)
                     ),
-                    "keep the motion inside the joint limits, or correct the limits",
+                    match joint.kind {
+                        JointKind::Revolute => {
+                            "keep the motion inside the joint limits, or correct the limits; angles are in rad"
+                        }
+                        JointKind::Prismatic => {
+                            "keep the motion inside the joint limits, or correct the limits; lengths are in m"
+                        }
+                    },
                 );
             }
         };

@@ -106,7 +106,7 @@ fn continuous(promised: &GuaranteeView, control: &ControlView, sampled: bool) ->
     let mut lines = vec![
         format!("level of V, a proof for the continuous law: {holds}"),
         format!(
-            "  errors while V stays below its level: position ({}), velocity ({})",
+            "  errors while V stays below its level: position ({}) rad or m, velocity ({}) rad/s or m/s",
             list(control.position_error),
             list(control.velocity_error)
         ),
@@ -155,7 +155,7 @@ fn guarantee(promised: &PromiseView) -> Vec<String> {
             lines.push(format!("  {what}: ({})", list(x)));
         }
     };
-    bound("largest error at any time", &promised.reach);
+    bound("largest error at any time, rad or m", &promised.reach);
     if let Some(settle) = promised.settle {
         bound(&format!("largest error from {} s on", printed_up(settle)), &promised.settled_error);
     }
@@ -171,7 +171,7 @@ fn guarantee(promised: &PromiseView) -> Vec<String> {
         let shown =
             |x: &[f64], of: fn(f64) -> String| x.iter().map(|x| of(*x)).collect::<Vec<_>>().join(", ");
         let (low, high) = (shown(low, printed_below), shown(high, printed_above));
-        lines.push(format!("  torque asked for: from ({low}) to ({high})"));
+        lines.push(format!("  torque asked for, N·m or N: from ({low}) to ({high})"));
     }
     if let Some(period) = promised.period_max {
         lines.push(format!("  longest period: {} s", printed_down(period)));
