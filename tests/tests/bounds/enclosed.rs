@@ -100,7 +100,7 @@ fn a_torque_limit_that_the_first_step_goes_beyond_voids_the_guarantee() {
     assert!(!guarantee.holds);
     let reason = "the initial errors may ask ";
     assert!(
-        guarantee.reasons.iter().any(|r| r.starts_with(reason) && r.ends_with("limit is 4")),
+        guarantee.reasons.iter().any(|r| r.starts_with(reason) && r.ends_with("limit is 4 N·m")),
         "{:?}",
         guarantee.reasons
     );
