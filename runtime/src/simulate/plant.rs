@@ -94,7 +94,10 @@ impl<M: Model<N>, const N: usize> RigidPlant<M, N> {
     ) -> [M::Scalar; N] {
         let mobility: [[M::Scalar; N]; N] = from_fn(|i| inertia.solve(&unit(i)));
         for _ in 0..SWEEPS {
-            for i in (0..N).filter(|&i| sticks[i]) {
+            for i in 0..N {
+                if !sticks[i] {
+                    continue;
+                }
                 let [forward, backward] = self.coulomb[i];
                 let wanted = clamp(force[i] + acceleration[i] / mobility[i][i], backward, forward);
                 let change = wanted - force[i];
