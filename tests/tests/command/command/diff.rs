@@ -69,7 +69,7 @@ fn what_is_no_module_is_refused() {
         (&[&file, &spec], "has no line `// gramforge: …`"),
         (&["nowhere.rs", "nowhere.json"], "nowhere.json: cannot be read"),
         (&["nowhere.rs", "nowhere.json"], "nowhere.rs: cannot be read"),
-        (&[&spec], "<B>"),
+        (&[&spec], "name one module to compare; name a second one"),
         (&[&spec, "--sizes", "exact"], "names 1 sizes"),
         (&[&spec, "--sizes", "exact,xi99"], "has 11 functions"),
     ];
