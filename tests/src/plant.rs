@@ -33,7 +33,7 @@ pub struct Plant {
     gravity: Vector,
     /// Viscous friction by joint, N·m·s/rad or N·s/m; none at first.
     pub viscous: Row,
-    /// Coulomb friction by joint, the same both ways, N·m or N; none at first, and none at a speed of 0.
+    /// Coulomb friction by joint, the same both ways, N·m or N; none at first. A joint at rest stays there until more pulls at it.
     pub coulomb: Row,
 }
 
@@ -104,13 +104,32 @@ impl Plant {
         let still = [0.0; MOST];
         let placed = self.placed(q, qd, &still, true);
         let load = self.load(&placed, &still);
-        let mut matrix = self.mass_matrix(&placed);
+        let matrix = self.mass_matrix(&placed);
         let friction = |i: usize| {
             let side = if qd[i] == 0.0 { 0.0 } else { qd[i].signum() };
             self.viscous[i] * qd[i] + self.coulomb[i] * side
         };
         let rest = std::array::from_fn(|i| torque[i] - load[i] - friction(i));
-        solved(&mut matrix, rest, self.dof())
+        let holds = std::array::from_fn(|i| qd[i] == 0.0 && self.coulomb[i] > 0.0);
+        self.slipping(&matrix, rest, holds)
+    }
+
+    /// q̈ where `matrix` q̈ = `rest` less dry friction of the joints that it `holds`: all of them first, then without those at which
+    /// more than their friction pulls, one after the other.
+    fn slipping(&self, matrix: &[Row; MOST], mut rest: Row, mut holds: [bool; MOST]) -> Row {
+        let n = self.dof();
+        loop {
+            let (mut free, mut right) = (*matrix, rest);
+            for i in (0..n).filter(|&i| holds[i]) {
+                (0..n).for_each(|j| (free[i][j], free[j][i]) = (0.0, 0.0));
+                (free[i][i], right[i]) = (1.0, 0.0);
+            }
+            let found = solved(&mut free, right, n);
+            let pull = |i: usize| rest[i] - (0..n).map(|j| matrix[i][j] * found[j]).sum::<f64>();
+            let Some(i) = (0..n).find(|&i| holds[i] && pull(i).abs() > self.coulomb[i]) else { return found };
+            rest[i] -= self.coulomb[i] * pull(i).signum();
+            holds[i] = false;
+        }
     }
 
     /// One Runge–Kutta step of `h` seconds under a held torque.
@@ -125,7 +144,12 @@ impl Plant {
         let a4 = self.acceleration(&moved(q, &v3, h), &v4, torque);
         for i in 0..self.dof() {
             q[i] += h / 6.0 * (qd[i] + 2.0 * v2[i] + 2.0 * v3[i] + v4[i]);
+            let before = qd[i];
             qd[i] += h / 6.0 * (a1[i] + 2.0 * a2[i] + 2.0 * a3[i] + a4[i]);
+            // Dry friction has stopped it on the way.
+            if self.coulomb[i] > 0.0 && before * qd[i] < 0.0 {
+                qd[i] = 0.0;
+            }
         }
     }
 

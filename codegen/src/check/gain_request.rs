@@ -49,31 +49,40 @@ pub(super) fn check(control: &ControlSpec, spec: &Spec, joints: Option<usize>, f
         let help = "take the measure `tube`, or `workspace`";
         faults.push("control.design", "needs room for errors, but the measure `trajectory` has none", help);
     }
-    starts_outside(control, spec, joints, faults);
+    let initial = "control.initial_error.position";
+    for (field, problem, _) in beyond_measure(initial, &control.initial_error.position, spec, joints) {
+        let help = "take a smaller initial error, in rad or m, or widen `measure.tube.position_error`";
+        faults.push(field, problem, help);
+    }
     let Some(tube) = &request.tube else { return };
     entries("control.design.tube", tube, joints, |v| v >= LEAST, "a number of at least 1e-6", faults);
-    let both = |n| Some((tube.by_joint(n)?, measured(spec)?.by_joint(n)?));
-    let Some((wanted, widest)) = joints.and_then(both) else { return };
-    let beyond = wanted.iter().zip(&widest).enumerate().filter(|(_, (wanted, widest))| wanted > widest);
-    // One number for all joints is one mistake.
-    let told = if matches!(tube, VectorSpec::Scalar(_)) { 1 } else { wanted.len() };
-    for (i, (wanted, widest)) in beyond.take(told) {
-        let field = match tube {
-            VectorSpec::Scalar(_) => "control.design.tube".to_string(),
-            VectorSpec::List(_) => format!("control.design.tube[{i}]"),
-        };
-        let problem = format!(
-            "is {}, and the bounds hold only up to {} of joint {}",
-            scientific(*wanted),
-            scientific(*widest),
-            i + 1
-        );
-        faults.push(
-            field,
-            problem,
-            format!("write at most {widest}, or widen `measure.tube.position_error`"),
-        );
+    for (field, problem, widest) in beyond_measure("control.design.tube", tube, spec, joints) {
+        let help = format!("write at most {widest}, or widen `measure.tube.position_error`");
+        faults.push(field, problem, help);
     }
+}
+
+/// Field, problem and what the measure's tube is, for each entry of the field that is larger.
+fn beyond_measure(
+    field: &str,
+    wanted: &VectorSpec,
+    spec: &Spec,
+    joints: Option<usize>,
+) -> Vec<(String, String, f64)> {
+    let both = |n| Some((wanted.by_joint(n)?, measured(spec)?.by_joint(n)?));
+    let Some((values, widest)) = joints.and_then(both) else { return Vec::new() };
+    let beyond = values.iter().zip(&widest).enumerate().filter(|(_, (value, widest))| value > widest);
+    let fault = |(i, (value, widest)): (usize, (&f64, &f64))| {
+        let field = match wanted {
+            VectorSpec::Scalar(_) => field.to_string(),
+            VectorSpec::List(_) => format!("{field}[{i}]"),
+        };
+        let (value, most) = (scientific(*value), scientific(*widest));
+        (field, format!("is {value}, and the bounds hold only up to {most} of joint {}", i + 1), *widest)
+    };
+    // One number for all joints is one mistake.
+    let told = if matches!(wanted, VectorSpec::Scalar(_)) { 1 } else { values.len() };
+    beyond.take(told).map(fault).collect()
 }
 
 /// The tube for which the bounds hold; `None` where they hold for another domain.
@@ -82,20 +91,5 @@ fn measured(spec: &Spec) -> Option<&VectorSpec> {
         Some(MeasureSpec::Tube { position_error }) => Some(position_error),
         None if spec.motion.is_some() => Some(&VectorSpec::Scalar(crate::domain::DEFAULT_TUBE)),
         _ => None,
-    }
-}
-
-/// An arm that may start outside the tube has no gains, which need not be sought.
-fn starts_outside(control: &ControlSpec, spec: &Spec, joints: Option<usize>, faults: &mut Diagnostics) {
-    let both = |n| Some((control.initial_error.position.by_joint(n)?, measured(spec)?.by_joint(n)?));
-    let Some((start, tube)) = joints.and_then(both) else { return };
-    let beyond = start.iter().zip(&tube).position(|(start, tube)| start > tube);
-    if let Some(i) = beyond {
-        let (start, tube) = (scientific(start[i]), scientific(tube[i]));
-        faults.push(
-            "control.initial_error.position",
-            format!("is {start} of joint {}, and the bounds hold only up to {tube}", i + 1),
-            "take a smaller initial error, in rad or m, or widen `measure.tube.position_error`",
-        );
     }
 }

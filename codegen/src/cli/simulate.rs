@@ -75,7 +75,7 @@ impl Simulate {
             write_if_changed(path, &picture)?;
         }
         if !self.json {
-            let picture = self.plot.as_ref().map(|path| format!("\n{}: written\n", path.display()));
+            let drawn = self.plot.as_ref().map(|path| format!("\n{}: written\n", path.display()));
             let mut out = metrics_table(&comparison, joints);
             if !chatter.is_empty() {
                 out += &format!("\n{}", chatter_table(&chatter, comparison.exact.relative_step()));
@@ -83,7 +83,7 @@ impl Simulate {
             if let Some(found) = &found {
                 out += &format!("\n{}", beside(found, sampled, joints));
             }
-            return Ok(out + &picture.unwrap_or_default());
+            return Ok(out + &drawn.unwrap_or_default());
         }
         json(&Summary {
             exact: &comparison.exact.metrics,

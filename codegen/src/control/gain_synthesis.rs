@@ -3,6 +3,7 @@
 use super::Stage;
 use super::region::{outside, room};
 use super::search::{FAR, GainCandidate, Scene, Target};
+use crate::arm::Arm;
 use crate::check::{GainRequest, Tuning};
 use crate::error::{Diagnostics, Error};
 use crate::number::short;
@@ -34,12 +35,15 @@ pub(super) fn tune(stage: &Stage, request: &GainRequest) -> Result<Tuning, Error
     let scene = Scene::new(stage, &target);
     let obstacles = obstacles(stage, &scene, &own);
     if !obstacles.is_empty() {
-        let help = if scene.certified {
-            "change the motion, the measure or the torque limits: no gains remove this obstacle"
-        } else {
-            "write the armature of the drives, without which wrists look too light; or narrow `measure.tube.position_error` or the \
-             intervals of uncertainty: no gains remove this obstacle"
-        };
+        let mut help: Vec<&str> = Vec::new();
+        if !scene.certified {
+            help.extend(without_armature(arm));
+            help.push("narrow `measure.tube.position_error` or the intervals of uncertainty");
+        }
+        if scene.certified || obstacles.len() > 1 {
+            help.push("change the motion, the measure or the torque limits");
+        }
+        let help = format!("no gains remove this obstacle: {}", help.join(", or "));
         faults.push("control.design", format!("cannot be met: {}", obstacles.join("; ")), help);
         return Err(faults.into_error());
     }
@@ -103,6 +107,12 @@ pub(super) fn tune(stage: &Stage, request: &GainRequest) -> Result<Tuning, Error
     let own_width = domain.width();
     too_narrow(stage, &nearest, asked.as_deref(), own_width.as_deref(), &mut faults)?;
     Err(faults.into_error())
+}
+
+/// What to do about drives without inertia, where there are any.
+fn without_armature(arm: &Arm) -> Option<&'static str> {
+    let bare = arm.joints.iter().any(|joint| joint.armature == 0.0);
+    bare.then_some("write the armature of the drives, without which wrists look too light")
 }
 
 /// What no gains remove.
@@ -191,7 +201,10 @@ fn too_narrow(
             let wider = "widen `measure.tube.position_error`";
             let help = match most.iter().all(|e| *e > 0.0) {
                 true => format!("{wider}, or take an initial position error of at most ({less})"),
-                false => format!("write the armature of the drives, shorten the period, or {wider}"),
+                false => {
+                    let ways = without_armature(stage.problem.arm).into_iter();
+                    ways.chain(["shorten the period", wider]).collect::<Vec<_>>().join(", or ")
+                }
             };
             faults.push(
                 "control.design",

@@ -27,7 +27,7 @@ impl Parts<'_> {
             (period >= most).then(|| {
                 let most = short(most);
                 format!(
-                    "the period of {} s is longer than {most} s: up to that, every loop of the domain is shown to be stable",
+                    "the period of {} s is longer than {most} s, up to which the loop is shown to be stable at every D of the domain",
                     scientific(period)
                 )
             }),

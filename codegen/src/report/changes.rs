@@ -70,7 +70,7 @@ fn numbers(part: &Part) -> String {
         Group::Guarantee => "Guarantee",
     };
     let mut grid = Grid::new(["number", "before", "after"]);
-    // A bound stands as the module has it: rounded, it might be none.
+    // As the module has them: a bound that is rounded to the wrong side is no bound.
     let shown = if matches!(part.group, Group::Bounds | Group::Guarantee) { scientific } else { short };
     let cell = |value: Option<f64>| value.map_or("-".to_string(), shown);
     for Moved { name, before, after } in part.moved.iter().take(SHOWN) {

@@ -45,7 +45,7 @@ pub fn monte_carlo_table(
         };
         for (_, values, bound) in &columns {
             row.push(cell(values, short));
-            // A bound that were rounded down would be none.
+            // A bound that is rounded down is no bound.
             row.extend(bound.map(|bound| cell(bound, printed_up)));
         }
         grid.push(row);
@@ -99,7 +99,7 @@ mod tests {
             picture: Picture::default(),
         };
         let certified = CertifiedErrors {
-            reach: &[0.05, 0.06, 0.07],
+            reach: &[0.05, 0.06, 0.0700016],
             settled_error: &[0.5, 0.6, 0.7],
             end_error: &[5.0, 6.0, 7.0],
             torque_max: &[50.0, 60.0, 70.0],
@@ -115,7 +115,8 @@ mod tests {
         let beside = monte_carlo_table(&found, Some(&certified), &joints);
         let (header, row) = (cells(&beside, 0), cells(&beside, 4));
         assert_eq!(header[1..5], ["reach", "certified", "settled", "certified"]);
-        let expected = ["0.03000", "0.07000", "0.003000", "0.7000", "0.003100", "7.000", "30.00", "70.00"];
+        // 0.0700016 is nearest to 0.07000, which is no bound.
+        let expected = ["0.03000", "0.07001", "0.003000", "0.7000", "0.003100", "7.000", "30.00", "70.00"];
         assert_eq!(row[1..], expected);
         assert!(beside.contains("In 1 run a torque limit") && beside.contains("In 2 runs the model's error"));
         assert!(!beside.contains("diverged"), "{beside}");

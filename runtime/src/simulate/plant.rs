@@ -5,7 +5,7 @@ use core::array::from_fn;
 use crate::cholesky::Cholesky;
 use crate::law::coulomb_torque;
 use crate::step::clamp;
-use crate::vector::{along, first_not_finite, unit};
+use crate::vector::{along, first_not_finite, sub, unit};
 use crate::{Model, PlantError, Real};
 
 /// Anything with `N` joints that answers torque with acceleration.
@@ -55,23 +55,20 @@ impl<M: Model<N>, const N: usize> Plant<M::Scalar, N> for RigidPlant<M, N> {
     ) -> Result<[M::Scalar; N], PlantError> {
         let bias = self.model.dynamics_bias(q, qd);
         let viscous = self.model.viscous_friction();
-        let net = from_fn(|i| {
-            let driving = torque[i] - bias[i] - viscous[i] * qd[i];
-            driving - friction(&self.coulomb[i], qd[i], driving)
-        });
+        let driving: [M::Scalar; N] = from_fn(|i| torque[i] - bias[i] - viscous[i] * qd[i]);
+        let force: [M::Scalar; N] = from_fn(|i| friction(&self.coulomb[i], qd[i], driving[i]));
         let mass_matrix = self.model.mass_matrix(q);
         let Some(inertia) = Cholesky::new(&mass_matrix) else {
             // An overflowed position gives NaN here, which is no fault of the model.
             let finite = mass_matrix.iter().all(|row| first_not_finite(row).is_none());
             return Err(if finite { PlantError::MassMatrix } else { PlantError::Diverged });
         };
-        let free = inertia.solve(&net);
+        let acceleration = inertia.solve(&sub(&driving, &force));
         let sticks: [bool; N] = from_fn(|i| qd[i] == M::Scalar::ZERO && dry(&self.coulomb[i]));
         if !sticks.contains(&true) {
-            return Ok(free);
+            return Ok(acceleration);
         }
-        let held = from_fn(|i| torque[i] - bias[i] - net[i]);
-        Ok(self.at_rest(&inertia, &sticks, held, free))
+        Ok(self.at_rest(&inertia, &sticks, force, acceleration))
     }
 
     fn stopped(&self, before: &[M::Scalar; N], after: [M::Scalar; N]) -> [M::Scalar; N] {
@@ -179,10 +176,34 @@ mod tests {
             assert!((solved[0] - push / d[0][0]).abs() < 1e-12, "{solved:?}");
             assert!((d[1][0] * solved[0]).abs() < 4.0 && solved[1] == 0.0, "{solved:?}");
         }
-        // More than the friction holds: it slips with all of its friction against it.
-        let solved = plant.acceleration(&q, &[0.0; 2], &[g0, g1 + 9.0]).unwrap();
-        let torque = [d[0][0] * solved[0] + d[0][1] * solved[1], d[1][0] * solved[0] + d[1][1] * solved[1]];
-        assert!(torque[0].abs() < 1e-9 && (torque[1] - 5.0).abs() < 1e-9 && solved[1] > 0.0, "{torque:?}");
+    }
+
+    /// The law of Coulomb: within its levels the friction holds, and what moves has all of it against it.
+    #[test]
+    fn friction_at_rest_holds_or_is_at_its_level_against_the_motion() {
+        let arm = TwoLink::<f64>::EXAMPLE;
+        let levels = [[2.0, -3.0], [1.0, -0.5]];
+        let plant = RigidPlant { model: arm, coulomb: levels };
+        let mut seen = [0; 4];
+        for (i, j) in (0..41).flat_map(|i| (0..41).map(move |j| (i, j))) {
+            let q = [0.4, 0.1 * f64::from(i) - 2.0];
+            let gravity = arm.gravity(&q);
+            let torque = [gravity[0] + 0.4 * f64::from(i) - 8.0, gravity[1] + 0.2 * f64::from(j) - 4.0];
+            let solved = plant.acceleration(&q, &[0.0; 2], &torque).unwrap();
+            let d = arm.mass_matrix(&q);
+            for (k, [forward, backward]) in levels.into_iter().enumerate() {
+                let force = torque[k] - gravity[k] - d[k][0] * solved[0] - d[k][1] * solved[1];
+                let wanted = match solved[k] {
+                    a if a > 0.0 => [forward; 2],
+                    a if a < 0.0 => [backward; 2],
+                    _ => [backward, forward],
+                };
+                let inside = wanted[0] - 1e-9 <= force && force <= wanted[1] + 1e-9;
+                assert!(inside, "{torque:?}: {solved:?}, friction {force} of joint {k}");
+                seen[2 * k + usize::from(solved[k] == 0.0)] += 1;
+            }
+        }
+        assert!(seen.iter().all(|&count| count > 100), "{seen:?}");
     }
 
     #[test]

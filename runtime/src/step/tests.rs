@@ -78,7 +78,46 @@ fn a_fault_is_found_wherever_it_enters_and_the_gravity_torque_is_held() {
     assert_eq!((fault.quantity, fault.joint, fault.command), (Quantity::Torque, 0, [0.0; 2]));
 }
 
-/// The same step, for motions inside these limits alone.
+/// More joints than are written out: τ = q MAX within 1 N·m.
+struct Many;
+
+impl ControlStep<10> for Many {
+    type Scalar = f64;
+    const SETTINGS: Settings<f64, 10> =
+        Settings { period: 0.1, torque_limit: [Some(1.0); 10], on_fault: OnFault::Hold };
+    const LEARNING: Learning<f64, 0> = Learning::NONE;
+
+    fn step(q: &[f64; 10], _: &[f64; 10], _: &Desired<f64, 10>, _: &[f64; 0]) -> StepTorque<f64, 10> {
+        let asked = q.map(|q| q * f64::MAX);
+        let limited = asked.map(|asked| clamp(asked, -1.0, 1.0));
+        StepTorque { asked, limited, unread: 0.0, correction: [] }
+    }
+
+    fn gravity_torque(_: &[f64; 10]) -> [f64; 10] {
+        [0.0; 10]
+    }
+}
+
+#[test]
+fn the_first_joint_whose_torque_overflows_is_named_and_every_joint_is_looked_at() {
+    let desired = Desired { q: [0.0; 10], qd: [0.0; 10], qdd: [0.0; 10] };
+    let at = |joints: &[usize], value: f64| {
+        let mut q = [0.0; 10];
+        joints.iter().for_each(|&i| q[i] = value);
+        StepController::<Many, 10>::new().step(&q, &[0.0; 10], &desired)
+    };
+    for (joints, first) in [(&[3, 9][..], 3), (&[9], 9), (&[0, 1], 0)] {
+        let fault = at(joints, 2.0).unwrap_err();
+        assert_eq!((fault.quantity, fault.joint), (Quantity::Torque, first));
+    }
+    let command = at(&[1, 9], -0.5).unwrap();
+    for i in 0..10 {
+        let cut = i == 1 || i == 9;
+        assert_eq!((command.torque[i], command.saturated[i]), (if cut { -1.0 } else { 0.0 }, cut), "{i}");
+    }
+}
+
+/// The step of [`Simple`], for motions inside these limits alone.
 struct Checked;
 
 impl ControlStep<2, 1> for Checked {

@@ -3,14 +3,14 @@
 use std::fs;
 use std::path::PathBuf;
 
-use crate::arm::JointKind;
-use crate::bounds::{Effort, printed_up};
+use crate::bounds::Effort;
 use crate::cache::Cache;
 use crate::cli::progress::watched;
 use crate::error::{Diagnostic, Error};
 use crate::init::{First, Request, TRIALS, first};
 use crate::pipeline::Generation;
 use crate::progress::Stage;
+use crate::report::worst;
 
 /// A specification, what was said of it, and whether it can be used as it is.
 pub(super) struct Tried {
@@ -97,19 +97,9 @@ fn promised(generation: &Generation) -> Result<String, String> {
     let kind = statement.kind.name();
     let mut out = format!("Tried out: {verdict}\nGuarantee: {kind}");
     if let Some(sampled) = statement.promised() {
-        let joints = &generation.arm().joints;
-        for (kind, unit) in [(JointKind::Revolute, "mrad"), (JointKind::Prismatic, "mm")] {
-            let worst = |errors: &[f64]| {
-                let own = joints.iter().zip(errors).filter(|(joint, _)| joint.kind == kind);
-                own.fold(0.0_f64, |most, (_, error)| most.max(*error))
-            };
-            if joints.iter().any(|joint| joint.kind == kind) {
-                let [any, end] = [&sampled.reach, &sampled.end_error].map(|x| printed_up(1e3 * worst(x)));
-                out += &format!(
-                    "; |q - q_d| stays below {any} {unit}, at the end of the motion below {end} {unit}"
-                );
-            }
-        }
+        let [any, end] =
+            [&sampled.reach, &sampled.end_error].map(|errors| worst(&generation.arm().joints, errors));
+        out += &format!("; |q - q_d| stays below {any} at any time, at the end of the motion below {end}");
     } else if let Some(reason) = statement.reasons.first() {
         out += &format!(": {reason}");
     }

@@ -3,7 +3,7 @@
 use super::figure::{Axis, Figure, Lines, Panel, Role, Series, drawn_up};
 use super::study::Study;
 use super::thin::{steps, thinned};
-use super::words::{self, counted};
+use super::words::{self, counted, worst};
 use crate::arm::{Joint, JointKind};
 use crate::guarantee::Sampled;
 use crate::report::law_name;
@@ -91,17 +91,6 @@ pub(super) fn funnel_figure(study: &Study) -> Option<Figure> {
         ),
     };
     Some(Figure { caption, panels })
-}
-
-/// The worst joint of a kind in words, both kinds where the arm has both.
-pub(super) fn worst(joints: &[Joint], errors: &[f64]) -> String {
-    let of = |kind: JointKind| {
-        let own = joints.iter().zip(errors).filter(|(joint, _)| joint.kind == kind).map(|(_, error)| *error);
-        own.fold(None, |most: Option<f64>, error| Some(most.map_or(error, |most| most.max(error))))
-            .map(|most| words::position(most, kind, true))
-    };
-    let kinds = [of(JointKind::Revolute), of(JointKind::Prismatic)];
-    kinds.into_iter().flatten().collect::<Vec<_>>().join(" and ")
 }
 
 fn sampled_in_words(sampled: &Sampled, joints: &[Joint]) -> String {

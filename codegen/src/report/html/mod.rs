@@ -21,7 +21,7 @@ mod uncertainty;
 mod words;
 
 pub use study::{ReportEffort, Study};
-pub(crate) use words::counted;
+pub(crate) use words::{counted, worst};
 
 use figure::Figure;
 

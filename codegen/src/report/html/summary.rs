@@ -1,9 +1,8 @@
 //! The numbers that decide, on one line.
 
-use super::closed_loop::worst;
 use super::figure::{Figure, Panel, Tile};
 use super::study::Study;
-use super::words;
+use super::words::{self, worst};
 use crate::control::StepGraph;
 use crate::guarantee::Kind;
 

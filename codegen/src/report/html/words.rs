@@ -1,6 +1,6 @@
 //! Numbers for people: three digits, a unit, and a bound never on the wrong side.
 
-use crate::arm::JointKind;
+use crate::arm::{Joint, JointKind};
 use crate::bounds::down;
 use crate::number::short;
 
@@ -19,6 +19,17 @@ pub(super) fn position(x: f64, kind: JointKind, up: bool) -> String {
     } else {
         format!("{} {whole}", three(x, up))
     }
+}
+
+/// The largest of `errors` by joint, rad or m, with its unit and never below; that of each kind where the arm has both kinds.
+pub(crate) fn worst(joints: &[Joint], errors: &[f64]) -> String {
+    let of = |kind: JointKind| {
+        let own = joints.iter().zip(errors).filter(|(joint, _)| joint.kind == kind).map(|(_, error)| *error);
+        own.fold(None, |most: Option<f64>, error| Some(most.map_or(error, |most| most.max(error))))
+            .map(|most| position(most, kind, true))
+    };
+    let kinds = [of(JointKind::Revolute), of(JointKind::Prismatic)];
+    kinds.into_iter().flatten().collect::<Vec<_>>().join(" and ")
 }
 
 /// A time with its unit: `1 ms`, `2.35 s`.

@@ -26,7 +26,8 @@ fn a_specification_from_a_robot_file_is_taken_by_the_other_commands() {
     let folder = folder();
     fs::copy(root().join("tests/data/follower.urdf"), folder.path().join("arm.urdf")).expect("copied");
     let told = inside(folder.path(), &["init", "arm.urdf", "--control", "exact"]).expect(0).stdout;
-    for words in ["Arm: 2 joints to the link", "Armature: zero for", "Next:\n  gramforge inspect"] {
+    let named = "Module: chain, in chain.rs\n";
+    for words in [named, "Arm: 2 joints to the link", "Armature: zero for", "Next:\n  gramforge inspect"] {
         assert!(told.contains(words), "no {words:?} in\n{told}");
     }
     let spec = told.lines().next().and_then(|line| line.strip_suffix(": written")).expect("a file");
@@ -48,6 +49,7 @@ fn a_specification_from_a_robot_file_is_taken_by_the_other_commands() {
         "{told}"
     );
     inside(folder.path(), &["generate", spec, "--out", "src"]).expect(0);
+    assert!(folder.path().join("src/chain.rs").exists());
     assert_eq!(fs::read_dir(folder.path().join("src")).expect("a folder").count(), 1);
 }
 

@@ -85,7 +85,16 @@ const CASES: &[Case] = &[
             i.set("/control/initial_error/position", json!(10.0));
         },
         "control.initial_error.position",
-        &["is 10 of joint 1", "hold only up to 0.2", "take a smaller initial error"],
+        &["is 10", "hold only up to 0.2 of joint 1", "take a smaller initial error"],
+    ),
+    case(
+        "one joint that may start outside the tube",
+        |i| {
+            ask(i, json!({ "convergence_time": 1.5 }));
+            i.set("/control/initial_error/position", json!([0.01, 0.3, 0.01]));
+        },
+        "control.initial_error.position[1]",
+        &["is 0.3", "hold only up to 0.2 of joint 2"],
     ),
     case(
         "a period that no gains bear",
