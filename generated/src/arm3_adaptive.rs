@@ -2,7 +2,7 @@
 // Specification: SHA-256 5497fcb0e6eb062386c6655c57b5220606dcf3becd2c9ead7907c92cf4040d17
 // Made by: gramforge generate SPEC --out DIR, from the specification named arm3_adaptive
 // gramforge: {"form":"expanded","psi":[["cos(q2)",0.8820578564913022],["sin(2 q2)",0.11794214350869783]],"operations":{"mul":90,"add":87,"fused":0,"other":7,"div":0,"trig_pairs":2},"exact_operations":null,"torque_error":[0.6619390777978894,0.09935494001302723,0.1272269793483294],"switching_gain":null,"guarantee":"none"}
-// Size: 16744 bytes below this line
+// Size: 16753 bytes below this line
 
 /// Reduced model of `arm3_adaptive`, 3 joints: 2 of 11 ψ functions.
 ///
@@ -184,7 +184,7 @@ impl ::gramforge_runtime::AdaptiveModel<3, 1> for Arm3Adaptive {
 /// It is `none`, because:
 /// - the errors of a law that learns are not followed from sample to sample
 /// - no level of V is found that the law keeps it below: raise W or Omega, narrow the boundary layer or the intervals of uncertainty, or lower Ptheta
-/// - the period of 0.001 s is longer than 4.620e-4 s: up to that, every loop of the domain is shown to be stable
+/// - the period of 0.001 s is longer than 4.620e-4 s, up to which the loop is shown to be stable at every D of the domain
 /// - the error of joint 1 may reach 1.1731, the tube holds 0.2000; the error of joint 2 may reach 0.6959, the tube holds 0.2000; the error of joint 3 may reach 1.2804, the tube holds 0.2000
 #[allow(dead_code, clippy::approx_constant)]
 pub const GUARANTEE: ::gramforge_runtime::Guarantee<f64, 3> = ::gramforge_runtime::Guarantee::None;

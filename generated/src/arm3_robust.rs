@@ -2,7 +2,7 @@
 // Specification: SHA-256 0bc8a724e80f58f25960b88a90d26515986ca41aad56dca864237f9d76bd6c7d
 // Made by: gramforge generate SPEC --out DIR, from the specification named arm3_robust
 // gramforge: {"form":"expanded","psi":[["cos(q2)",0.8820578564913022],["sin(2 q2)",0.11794214350869783]],"operations":{"mul":69,"add":70,"fused":0,"other":3,"div":0,"trig_pairs":2},"exact_operations":{"mul":81,"add":80,"fused":0,"other":3,"div":0,"trig_pairs":2},"torque_error":[0.8571011582096751,7.035624556755547,3.94320143269551],"switching_gain":[597.3981170118208,315.489507414925,222.8230053255846],"guarantee":"none"}
-// Size: 12756 bytes below this line
+// Size: 12765 bytes below this line
 
 /// Reduced model of `arm3_robust`, 3 joints: 2 of 11 ψ functions.
 ///
@@ -117,7 +117,7 @@ impl ::gramforge_runtime::Model<3> for Arm3Robust {
 ///
 /// It is `none`, because:
 /// - joint 1 (joint1) may leave the tube of 0.2000 at t = 0.0000 s
-/// - the period of 0.001 s is longer than 3.163e-4 s: up to that, every loop of the domain is shown to be stable
+/// - the period of 0.001 s is longer than 3.163e-4 s, up to which the loop is shown to be stable at every D of the domain
 /// - the error of joint 1 may reach 1.1731, the tube holds 0.2000; the error of joint 2 may reach 0.6959, the tube holds 0.2000; the error of joint 3 may reach 1.2804, the tube holds 0.2000
 #[allow(dead_code, clippy::approx_constant)]
 pub const GUARANTEE: ::gramforge_runtime::Guarantee<f64, 3> = ::gramforge_runtime::Guarantee::None;
