@@ -15,8 +15,9 @@ const LATE: f64 = 10_000.0;
 const ROOM: f64 = 1.05;
 /// The same of a box that is to hold after a repetition: the errors come back into it only as fast as they die away.
 const ROOMS: [f64; 4] = [1.05, 1.5, 2.5, 6.0];
-/// Trials to find such a box, and most periods that it may take to come back into it.
+/// Trials to find such a box, the time before each, s, and most periods that it may take to come back into it.
 const TRIALS: usize = 12;
+const BETWEEN: f64 = 0.25;
 const RETURN: usize = 4000;
 
 /// What is proved of the sampled loop.
@@ -189,10 +190,11 @@ impl<'a> Claim<'a> {
     /// After the motion: until a box is found from which the errors come back into it, or until they cannot be followed.
     fn rest(&mut self, funnel: &mut Funnel<'a>) {
         let period = self.problem.period;
-        // What holds for ever holds once the errors have settled, as small as they are then.
+        let between = (BETWEEN / period).max(1.0) as usize;
+        // What holds for ever holds once the errors have settled, as small as they are then. At the end of the motion they may still
+        // grow, and a box around them is larger than they ever get: it is first looked for a while later.
         let settled = libm::ceil(self.out.settle / period).min(funnel.index as f64 + LATE);
-        let mut before = libm::fmax(settled - funnel.index as f64, 0.0) as usize;
-        let between = (0.25 / period).max(1.0) as usize;
+        let mut before = (libm::fmax(settled - funnel.index as f64, 0.0) as usize).max(between);
         for _ in 0..TRIALS {
             for _ in 0..before {
                 let follows = funnel.step().is_ok_and(|step| self.take(&step, funnel).is_ok());

@@ -47,13 +47,7 @@ pub fn named() -> Vec<Named> {
 /// Other cases.
 pub fn others() -> Vec<Case> {
     let of = |name: &'static str, arm: &'static str| Case { name, arm, ..PLAIN };
-    let zero = |name, arm| Case { initial: 0.0, ..of(name, arm) };
     vec![
-        zero("threedof from 0", "threedof"),
-        zero("puma560 from 0", "puma560"),
-        zero("ur5 from 0", "ur5"),
-        zero("stanford from 0", "stanford"),
-        zero("panda from 0", "panda"),
         Case { payload: 0.2, ..of("panda payload", "panda") },
         Case { period: 8e-3, ..of("ur5 8 ms", "ur5") },
         Case { period: 4e-3, law: "tight", tolerance: 0.01, ..of("puma560 tight 4 ms", "puma560") },
