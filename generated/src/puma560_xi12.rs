@@ -644,7 +644,7 @@ impl ::gramforge_runtime::Model<6> for Puma560Xi12 {
 /// From every initial error specified, the loop that runs holds for ever:
 ///
 /// - |q − q_d| by joint at any time: at most (0.02011, 0.02022, 0.02023, 0.02001, 0.02001, 0.02001).
-/// - The same from t = 0.8381 s on: at most (0.005407, 0.004962, 0.005090, 0.004851, 0.004691, 0.004349).
+/// - The same from t = 0.8381 s on: at most (0.005157, 0.004669, 0.004838, 0.004646, 0.004492, 0.004173).
 /// - The same at the end of the motion: at most (0.004566, 0.004559, 0.004716, 0.003053, 0.002860, 0.001570).
 /// - The torque that the law asks for, by joint: from (-73.25, -12.34, -18.55, -3.640, -3.089, -2.572) to (74.08, 71.67, 24.29, 3.634, 3.130, 2.572).
 ///
@@ -655,14 +655,14 @@ pub const GUARANTEE: ::gramforge_runtime::Guarantee<f64, 6> = ::gramforge_runtim
     reach: [0.020101, 0.0202172, 0.0202299, 0.0200043, 0.0200036, 0.0200022],
     settle: 0.838071357613577,
     settled_error: ::core::option::Option::Some([
-        0.00540628,
-        0.00496132,
-        0.00508986,
-        0.0048508,
-        0.00469054,
-        0.00434818,
+        0.0051566,
+        0.00466864,
+        0.00483781,
+        0.00464562,
+        0.00449112,
+        0.00417221,
     ]),
-    end_error: [0.00456586, 0.00455873, 0.00471591, 0.0030525, 0.00285921, 0.00156986],
+    end_error: [0.00456586, 0.00455872, 0.00471591, 0.0030525, 0.00285921, 0.00156986],
     valid_until: ::core::option::Option::None,
     torque_min: [-73.2404, -12.336, -18.5485, -3.63926, -3.08828, -2.57146],
     torque_max: [74.0759, 71.6669, 24.2821, 3.63319, 3.1293, 2.57146],

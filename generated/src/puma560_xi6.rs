@@ -2,7 +2,7 @@
 // Specification: SHA-256 6356d47cb8be4f17762d7be89ba44d0ca7988cac8a4c5e0b89db30c9de09bf59
 // Made by: gramforge generate SPEC --out DIR, from the specification named puma560_xi6
 // gramforge: {"form":"expanded","psi":[["cos(q5)",0.009324855173500294],["sin(q2 + q3)",0.07156920464829765],["cos(q2)",0.9182004322035673],["sin(2 q2)",0.0004037290412456438],["cos(2 q5)",0.00041325516986574643],["sin(2 q2 + q3)",0.00008852376352351117]],"operations":{"mul":479,"add":444,"fused":0,"other":12,"div":0,"trig_pairs":4},"exact_operations":{"mul":212,"add":200,"fused":0,"other":12,"div":0,"trig_pairs":4},"torque_error":[0.10742806059416483,0.216749052731679,0.1321353596514365,0.0008973914552724964,0.0012333520883920177,9.152448602856575e-11],"switching_gain":[28.1633,15.0308,7.69562,1.28976,1.0493,0.805204],"guarantee":"sampled"}
-// Size: 54938 bytes below this line
+// Size: 54937 bytes below this line
 
 /// Reduced model of `puma560_xi6`, 6 joints: 6 of 141 ψ functions.
 ///
@@ -459,7 +459,7 @@ impl ::gramforge_runtime::Model<6> for Puma560Xi6 {
 /// From every initial error specified, the loop that runs holds for ever:
 ///
 /// - |q − q_d| by joint at any time: at most (0.02011, 0.02021, 0.02024, 0.02001, 0.02001, 0.02001).
-/// - The same from t = 0.8381 s on: at most (0.005359, 0.004841, 0.005032, 0.004851, 0.004691, 0.004349).
+/// - The same from t = 0.8381 s on: at most (0.005113, 0.004568, 0.004784, 0.004646, 0.004491, 0.004173).
 /// - The same at the end of the motion: at most (0.004548, 0.004474, 0.004684, 0.003056, 0.002863, 0.001570).
 /// - The torque that the law asks for, by joint: from (-75.91, -16.54, -20.38, -3.645, -3.095, -2.572) to (76.38, 75.88, 26.11, 3.639, 3.136, 2.572).
 ///
@@ -470,14 +470,14 @@ pub const GUARANTEE: ::gramforge_runtime::Guarantee<f64, 6> = ::gramforge_runtim
     reach: [0.0201059, 0.0202009, 0.020234, 0.0200043, 0.0200036, 0.0200022],
     settle: 0.8380713576127602,
     settled_error: ::core::option::Option::Some([
-        0.00535842,
-        0.00484053,
-        0.00503194,
-        0.00485037,
-        0.00469043,
-        0.00434818,
+        0.00511217,
+        0.00456713,
+        0.00478368,
+        0.00464503,
+        0.00449081,
+        0.0041723,
     ]),
-    end_error: [0.00454728, 0.00447348, 0.0046837, 0.00305527, 0.00286253, 0.00156988],
+    end_error: [0.00454728, 0.00447347, 0.0046837, 0.00305527, 0.00286253, 0.00156988],
     valid_until: ::core::option::Option::None,
     torque_min: [-75.9042, -16.5394, -20.3756, -3.64477, -3.09411, -2.57146],
     torque_max: [76.371, 75.8703, 26.1091, 3.63869, 3.13513, 2.57146],

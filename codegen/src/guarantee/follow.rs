@@ -1,24 +1,15 @@
 //! The whole claim: along the motion, and after it for as long as it holds.
 
+mod after;
+
 use super::declared::Declared;
 use super::funnel::{Funnel, Lost, Step};
 use super::problem::Problem;
-use super::set::ErrorSet;
 use super::settling::settling;
 use crate::bounds::{down, six_digits_up};
 
 /// Most periods that are followed one by one.
 const MOST: f64 = 4e5;
-/// Most periods after the motion in which the errors are to settle.
-const LATE: f64 = 10_000.0;
-/// How much larger than the set a box is that is to hold for ever.
-const ROOM: f64 = 1.05;
-/// The same of a box that is to hold after a repetition: the errors come back into it only as fast as they die away.
-const ROOMS: [f64; 4] = [1.05, 1.5, 2.5, 6.0];
-/// Trials to find such a box, the time before each, s, and most periods that it may take to come back into it.
-const TRIALS: usize = 12;
-const BETWEEN: f64 = 0.25;
-const RETURN: usize = 4000;
 
 /// What is proved of the sampled loop.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,12 +99,7 @@ pub(super) fn follow(problem: &Problem, declared: Declared, settle: Option<f64>)
     if rests {
         claim.rest(&mut funnel);
     } else if let Some(repetition) = repetition {
-        let offset = last * problem.period;
-        for room in ROOMS {
-            if claim.repeat(&funnel, offset, repetition.periods, room) {
-                break;
-            }
-        }
+        claim.again_and_again(&funnel, last * problem.period, repetition.periods);
     } else {
         claim.out.valid_until = Some(last * problem.period);
     }
@@ -185,93 +171,6 @@ impl<'a> Claim<'a> {
         for (settled, during) in self.settled.iter_mut().zip(&step.during) {
             *settled = settled.max(*during);
         }
-    }
-
-    /// After the motion: until a box is found from which the errors come back into it, or until they cannot be followed.
-    fn rest(&mut self, funnel: &mut Funnel<'a>) {
-        let period = self.problem.period;
-        let between = (BETWEEN / period).max(1.0) as usize;
-        // What holds for ever holds once the errors have settled, as small as they are then. At the end of the motion they may still
-        // grow, and a box around them is larger than they ever get: it is first looked for a while later.
-        let settled = libm::ceil(self.out.settle / period).min(funnel.index as f64 + LATE);
-        let mut before = (libm::fmax(settled - funnel.index as f64, 0.0) as usize).max(between);
-        for _ in 0..TRIALS {
-            for _ in 0..before {
-                let follows = funnel.step().is_ok_and(|step| self.take(&step, funnel).is_ok());
-                if !follows {
-                    self.out.valid_until = Some(funnel.index as f64 * period);
-                    return;
-                }
-            }
-            if self.returns(funnel) {
-                return;
-            }
-            before = between;
-        }
-        self.out.valid_until = Some(funnel.index as f64 * period);
-    }
-
-    /// Whether some box around the set of `settled` holds the errors again after a number of periods at rest.
-    fn returns(&mut self, settled: &Funnel<'a>) -> bool {
-        let (mut funnel, around) = self.boxed(settled, ROOM, settled.index);
-        let mut declared = self.declared.clone();
-        let mut steps = Vec::new();
-        for k in 0..RETURN {
-            if declared.widen(&mut funnel).is_err() {
-                return false;
-            }
-            let Ok(step) = funnel.step() else { return false };
-            steps.push(step);
-            if k % 8 == 7 && self.holds(&around, &funnel.set) {
-                steps.iter().for_each(|step| self.count_for_ever(step));
-                return true;
-            }
-        }
-        false
-    }
-
-    /// Whether a box around the set of `settled`, that at the end of a repetition, `offset` s, holds the errors again at the end of the
-    /// next.
-    fn repeat(&mut self, settled: &Funnel<'a>, offset: f64, periods: usize, room: f64) -> bool {
-        let (mut funnel, around) = self.boxed(settled, room, 0);
-        let mut declared = self.declared.clone();
-        let duration = self.problem.motion.duration();
-        self.out.valid_until = Some(offset.min(duration));
-        let mut steps = Vec::new();
-        for _ in 0..periods {
-            if declared.widen(&mut funnel).is_err() {
-                return false;
-            }
-            let Ok(step) = funnel.step() else { return false };
-            steps.push(Step { time: step.time + offset, ..step });
-        }
-        if !self.holds(&around, &funnel.set) {
-            return false;
-        }
-        self.out.valid_until = Some(duration);
-        for step in &steps {
-            self.count_for_ever(step);
-        }
-        for (i, end) in self.out.end_error.iter_mut().enumerate() {
-            *end = steps.iter().map(|step| step.during[i]).fold(0.0, f64::max);
-        }
-        true
-    }
-
-    /// The errors of all (q_e, s) in a box `room` times as large as that around the set of `funnel`, at the start of period `index`,
-    /// and its half sides.
-    fn boxed(&self, funnel: &Funnel<'a>, room: f64, index: usize) -> (Funnel<'a>, Vec<f64>) {
-        let gains = self.problem.gains;
-        let around: Vec<f64> = funnel.set.turned_hull(gains).iter().map(|x| room * x + 1e-13).collect();
-        let still = vec![0.0; self.problem.arm.dof()];
-        let mut start = ErrorSet::new(&still, &still, self.problem.numbers.len());
-        start.add_box(gains, &around);
-        (Funnel::from(self.problem, funnel.wrong.clone(), start, index), around)
-    }
-
-    /// Whether `set` lies in the box with the half sides `around`.
-    fn holds(&self, around: &[f64], set: &ErrorSet) -> bool {
-        set.turned_hull(self.problem.gains).iter().zip(around).all(|(x, around)| x <= around)
     }
 
     fn finished(mut self) -> Sampled {

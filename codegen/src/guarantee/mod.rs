@@ -6,6 +6,7 @@ mod enclosure;
 mod follow;
 mod funnel;
 mod local;
+mod numbers;
 mod period;
 mod problem;
 mod repetition;

@@ -6,16 +6,15 @@
 mod inertia;
 mod load;
 mod moved;
-mod numbers;
 mod sample;
 mod switching;
 
 use super::local::Local;
+use super::numbers::{ROUNDED, UP, product};
 use super::problem::{Problem, Wrong};
 use super::set::ErrorSet;
 use crate::numerics::linalg::weighed;
 use load::Load;
-use numbers::{ROUNDED, UP, product};
 use sample::{Sample, control};
 use switching::switched;
 

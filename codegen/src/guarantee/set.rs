@@ -47,6 +47,29 @@ impl ErrorSet {
         set
     }
 
+    /// The same centre and shared generators alone.
+    pub(super) fn middle(&self) -> Self {
+        let mut out = self.clone();
+        out.rows.iter_mut().for_each(Vec::clear);
+        out.boxed.fill(0.0);
+        out
+    }
+
+    /// What is left of it where `middle` is subtracted, each uncertain number by itself.
+    pub(super) fn less(&self, middle: &Self) -> Self {
+        let mut out = self.clone();
+        for k in 0..2 * self.n {
+            let mut size = self.centre[k].abs() + middle.centre[k].abs();
+            out.centre[k] -= middle.centre[k];
+            for (shared, other) in out.shared.iter_mut().zip(&middle.shared) {
+                size += shared[k].abs() + other[k].abs();
+                shared[k] -= other[k];
+            }
+            out.boxed[k] += ROUNDING * size;
+        }
+        out
+    }
+
     /// Number of generators that are not shared.
     pub(super) fn generators(&self) -> usize {
         self.rows.first().map_or(0, Vec::len)

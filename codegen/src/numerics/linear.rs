@@ -41,6 +41,13 @@ impl<const V: usize> Linear<V> {
         out
     }
 
+    /// The same and anything up to `off` more or less, which no λ makes smaller.
+    #[must_use]
+    pub fn about(mut self, off: f64) -> Self {
+        self.rounding += off;
+        self
+    }
+
     /// Σ_k |slopes_k|.
     pub fn spread(&self) -> f64 {
         self.slopes.iter().map(|slope| slope.abs()).sum()

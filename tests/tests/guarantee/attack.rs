@@ -68,7 +68,16 @@ fn aims(own: &Loop) -> Vec<(Aim, usize)> {
     for first in EARLY.map(sample).into_iter().chain(late) {
         out.extend((0..own.n).map(|i| (Aim::Position(i), first)));
     }
+    let settled = sample(own.promised.settle);
     for i in 0..own.n {
+        // Where the promise is largest.
+        let promised = |k: &usize| own.promised.course[*k].1[i];
+        let within = |from: usize| {
+            (from..own.promised.course.len().min(own.periods))
+                .max_by(|a, b| promised(a).total_cmp(&promised(b)))
+        };
+        let widest = [1, settled].into_iter().filter_map(within);
+        out.extend(widest.map(|k| (Aim::Position(i), k)));
         let asked = |k: &usize| own.asked(*k, &own.desired[*k].q, &own.desired[*k].qd)[i];
         let samples = || 0..own.periods;
         let more = |a: &usize, b: &usize| asked(a).total_cmp(&asked(b));

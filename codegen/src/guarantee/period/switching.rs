@@ -1,8 +1,8 @@
 //! The switching term as a line with an error, and the friction that the command compensates.
 
 use super::super::local::Local;
+use super::super::numbers::{ROUNDED, UP};
 use super::super::problem::{Magnitudes, Problem, Switching, Wrong};
-use super::numbers::{ROUNDED, UP};
 use crate::numerics::linalg::weighed;
 
 /// What a line of the switching term may add to the loop in a period, relative.

@@ -49,3 +49,19 @@ fn a_map_and_its_image_agree() {
         assert!((size - own).abs() <= 1e-11 * (1.0 + size), "{size} {own}");
     }
 }
+
+#[test]
+fn what_is_left_beside_a_middle_is_counted_number_by_number() {
+    let set = crowded();
+    let left = set.less(&set.middle());
+    // Of centre and shared generators nothing is left, of the others all.
+    for (k, left) in left.hull().into_iter().enumerate() {
+        let own: f64 = set.rows[k].iter().map(|part| part.abs()).sum();
+        assert!((left - own).abs() <= 1e-11 * own, "{left} {own}");
+    }
+    let mut other = set.middle();
+    other.shared[0][1] += 0.07;
+    other.centre[1] -= 0.02;
+    let moved = set.less(&other).hull()[1] - left.hull()[1];
+    assert!((moved - 0.09).abs() < 1e-12, "{moved}");
+}
