@@ -21,8 +21,9 @@ struct Piece {
     map: DMatrix<f64>,
     /// What a torque that is held for the period adds.
     push: DMatrix<f64>,
-    /// The law's torque for (q_e, q̇_e).
+    /// The law's torque for (q_e, q̇_e), and what acceleration comes of it.
     torque: DMatrix<f64>,
+    acceleration: DMatrix<f64>,
 }
 
 /// What an aim depends on: the errors at the start and the torques of each period.
@@ -43,6 +44,15 @@ impl Frozen {
         let length = (PIECE / own.period).floor().max(1.0) as usize;
         let pieces = (0..own.periods).step_by(length).map(|k| Piece::new(own, k)).collect();
         Self { pieces, length }
+    }
+
+    /// Whether the loop would be stable with this period in every piece, frozen.
+    pub fn stable(&self, period: f64) -> bool {
+        let radius = |piece: &Piece| {
+            let map = map(&piece.acceleration, period);
+            map.complex_eigenvalues().iter().map(|x| x.re.hypot(x.im)).fold(0.0, f64::max)
+        };
+        self.pieces.iter().all(|piece| radius(piece) < 1.0)
     }
 
     /// What `aim` at sample `until` depends on, from sample `from` on.
@@ -98,14 +108,23 @@ impl Piece {
             own.arm.acceleration(&desired.q, &desired.qd, &more)[i] - rest[i]
         });
         let acceleration = free + &mobility * &torque;
-        let over = |a: &DMatrix<f64>| {
-            let mut out = DMatrix::zeros(2 * n, a.ncols());
-            out.rows_mut(0, n).copy_from(&(a * (0.5 * t * t)));
-            out.rows_mut(n, n).copy_from(&(a * t));
-            out
-        };
-        let mut map = DMatrix::identity(2 * n, 2 * n) + over(&acceleration);
-        (0..n).for_each(|i| map[(i, n + i)] += t);
-        Self { map, push: over(&mobility), torque }
+        Self { map: map(&acceleration, t), push: held_for(&mobility, t), torque, acceleration }
     }
+}
+
+/// What an acceleration that is held for `t` s adds to (q_e, q̇_e).
+fn held_for(a: &DMatrix<f64>, t: f64) -> DMatrix<f64> {
+    let n = a.nrows();
+    let mut out = DMatrix::zeros(2 * n, a.ncols());
+    out.rows_mut(0, n).copy_from(&(a * (0.5 * t * t)));
+    out.rows_mut(n, n).copy_from(&(a * t));
+    out
+}
+
+/// (q_e, q̇_e) over a period of `t` s.
+fn map(acceleration: &DMatrix<f64>, t: f64) -> DMatrix<f64> {
+    let n = acceleration.nrows();
+    let mut map = DMatrix::identity(2 * n, 2 * n) + held_for(acceleration, t);
+    (0..n).for_each(|i| map[(i, n + i)] += t);
+    map
 }

@@ -106,7 +106,33 @@ impl Loop {
     pub fn new(generation: &Generation, specified: &Chain, family: &[Chain]) -> Self {
         let statement = generation.statement().expect("a statement");
         assert_eq!(statement.kind, Kind::Sampled, "{:?}", statement.reasons);
-        let promised = statement.sampled.clone().expect("what is proved");
+        Self::promised(generation, specified, family, statement.sampled.clone().expect("what is proved"))
+    }
+
+    /// The same, of which nothing is promised, with the model as it is.
+    pub fn without_promise(
+        generation: &Generation,
+        specified: &Chain,
+        family: &[Chain],
+        settle: f64,
+    ) -> Self {
+        let any = vec![f64::INFINITY; specified.dof()];
+        let promised = Sampled {
+            reach: any.clone(),
+            settle,
+            settled_error: None,
+            end_error: any.clone(),
+            speed_error: any.clone(),
+            valid_until: None,
+            torque: vec![[f64::NEG_INFINITY, f64::INFINITY]; specified.dof()],
+            torque_error: Vec::new(),
+            torque_time: vec![0.0; specified.dof()],
+            course: Vec::new(),
+        };
+        Self { push: Vec::new(), ..Self::promised(generation, specified, family, promised) }
+    }
+
+    fn promised(generation: &Generation, specified: &Chain, family: &[Chain], promised: Sampled) -> Self {
         let motion = generation.motion().expect("a motion").clone();
         let design = generation.design().expect("a controller").clone();
         let (n, period) = (generation.given().dof(), design.period);

@@ -11,3 +11,4 @@ mod daily;
 mod frozen;
 mod looped;
 mod promises;
+mod survey;

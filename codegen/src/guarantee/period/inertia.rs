@@ -81,7 +81,8 @@ impl Sample<'_> {
         let Self { local, n, .. } = *self;
         let along = |row: &[f64], x: &[f64]| -> f64 { row.iter().zip(x).map(|(a, x)| a * x).sum() };
         let moved: Vec<f64> = local.inverse.iter().map(|row| along(row, lag)).collect();
-        let size: Vec<f64> = local.inverse_size.iter().map(|row| weighed(row, lag)).collect();
+        let sizes: Vec<f64> = lag.iter().map(|x| x.abs()).collect();
+        let size: Vec<f64> = local.inverse_size.iter().map(|row| weighed(row, &sizes)).collect();
         let length = norm(&columns.iter().map(|column| along(column, lag)).collect::<Vec<f64>>());
         let row = |i: usize| {
             let slope = |k: usize| {
