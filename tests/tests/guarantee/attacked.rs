@@ -96,7 +96,7 @@ fn no_run_of_the_named_cases_leaves_its_funnel() {
     near_what_runs_find(|case| case);
 }
 
-/// Cases whose reach from no error exceeds what runs find by more, of errors that small, and by how many times it may.
+/// Cases that are looser than the others from no initial error, and by how many times their reach may exceed what runs find.
 const LOOSER: [(&str, f64); 5] = [
     ("panda fast", 1.12),
     ("threedof payload", 1.25),

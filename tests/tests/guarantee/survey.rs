@@ -35,7 +35,7 @@ fn cases() -> Vec<Case> {
     out
 }
 
-/// Whether a period `1 / OF_LIMIT` times as long were stable, frozen.
+/// Whether the case counts: at 1 ms, or where the frozen loop is stable with a period `1 / OF_LIMIT` times as long.
 fn counts(own: &Loop, case: &Case) -> bool {
     case.period <= 1e-3 || Frozen::new(own).stable(case.period / OF_LIMIT)
 }
@@ -65,10 +65,10 @@ fn judged(case: &Case) -> (String, Option<bool>) {
         Err(message) => return (row("refused", &message.replace('\n', " ")), Some(false)),
     };
     let statement = generation.statement().expect("a statement");
-    let own = Loop::without_promise(&generation, &case.chain(), &case.family(), case.settle);
     if statement.kind == Kind::Sampled {
         return (row("sampled", ""), Some(true));
     }
+    let own = Loop::without_promise(&generation, &case.chain(), &case.family(), case.settle);
     let reason = statement.reasons.first().map_or("", String::as_str);
     if !counts(&own, case) {
         return (row(statement.kind.name(), "beyond the limit of the frozen loop"), None);
