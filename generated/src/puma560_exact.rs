@@ -2,7 +2,7 @@
 // Specification: SHA-256 7dedb30a05377a2ea1ba23ac2cc78848bbcf5fe31b642edd46e2cf54abb22143
 // Made by: gramforge generate SPEC --out DIR, from the specification named puma560_exact
 // gramforge: {"form":"recursive","psi":[],"operations":{"mul":212,"add":200,"fused":0,"other":12,"div":0,"trig_pairs":4},"exact_operations":{"mul":212,"add":200,"fused":0,"other":12,"div":0,"trig_pairs":4},"torque_error":[4.889368565424183e-9,1.874980480671193e-9,4.6038937151085075e-10,2.009566114667168e-10,3.3516183750613157e-12,4.558580933696549e-12],"switching_gain":[27.2358285,13.58469,7.0892316,1.28501516,1.0428835,0.8052030000000001],"guarantee":"sampled"}
-// Size: 27363 bytes below this line
+// Size: 27360 bytes below this line
 
 /// Exact model of `puma560_exact`, 6 joints, in recursive form.
 ///
@@ -208,29 +208,29 @@ impl ::gramforge_runtime::Model<6> for Puma560Exact {
 ///
 /// From every initial error specified, the loop that runs holds for ever:
 ///
-/// - |q − q_d| by joint at any time: at most (0.02011, 0.02022, 0.02023, 0.02001, 0.02001, 0.02001).
-/// - The same from t = 0.8381 s on: at most (0.005161, 0.004670, 0.004840, 0.004648, 0.004494, 0.004173).
-/// - The same at the end of the motion: at most (0.004570, 0.004560, 0.004718, 0.003052, 0.002856, 0.001570).
-/// - The torque that the law asks for, by joint: from (-73.06, -12.30, -18.52, -3.631, -3.076, -2.572) to (73.93, 71.63, 24.26, 3.625, 3.117, 2.572).
+/// - |q − q_d| by joint at any time: at most (0.02009, 0.02020, 0.02021, 0.02001, 0.02001, 0.02001).
+/// - The same from t = 0.8381 s on: at most (0.005156, 0.004661, 0.004833, 0.004646, 0.004492, 0.004172).
+/// - The same at the end of the motion: at most (0.004563, 0.004552, 0.004711, 0.003047, 0.002849, 0.001568).
+/// - The torque that the law asks for, by joint: from (-72.68, -12.05, -18.43, -3.631, -3.076, -2.572) to (73.58, 71.35, 24.16, 3.625, 3.117, 2.572).
 ///
 /// The torque is computed at each sample from q, q̇ and the reference of that instant, and held for one period. The arm is
 /// the one of the specification, or one of its intervals of uncertainty.
 #[allow(dead_code, clippy::approx_constant)]
 pub const GUARANTEE: ::gramforge_runtime::Guarantee<f64, 6> = ::gramforge_runtime::Guarantee::Sampled(::gramforge_runtime::SampledErrors {
-    reach: [0.0201021, 0.020217, 0.0202299, 0.0200043, 0.0200036, 0.0200022],
-    settle: 0.8380713926701533,
+    reach: [0.0200875, 0.020196, 0.0202099, 0.0200043, 0.0200036, 0.0200022],
+    settle: 0.838071392670232,
     settled_error: ::core::option::Option::Some([
-        0.00516082,
-        0.00466978,
-        0.00483966,
-        0.00464727,
-        0.00449365,
-        0.00417222,
+        0.00515533,
+        0.00466006,
+        0.00483248,
+        0.00464562,
+        0.00449183,
+        0.00417178,
     ]),
-    end_error: [0.00456902, 0.00455974, 0.00471773, 0.00305129, 0.00285511, 0.00156986],
+    end_error: [0.00456236, 0.00455105, 0.00471091, 0.00304679, 0.00284835, 0.00156736],
     valid_until: ::core::option::Option::None,
-    torque_min: [-73.0598, -12.2952, -18.5194, -3.63089, -3.07531, -2.57146],
-    torque_max: [73.9229, 71.6262, 24.2529, 3.62482, 3.11633, 2.57146],
+    torque_min: [-72.6705, -12.041, -18.4288, -3.63087, -3.07529, -2.57145],
+    torque_max: [73.5721, 71.3472, 24.1579, 3.6248, 3.11631, 2.57145],
 });
 
 /// Control period, s, below which the sampled loop is stable at every D of the domain, each D kept constant. `None` if

@@ -2,7 +2,7 @@
 // Specification: SHA-256 5549853045b307e40ff5ff8623e1a4eafd42b61fb3eeccf3627811af310e6451
 // Made by: gramforge generate SPEC --out DIR, from the specification named puma560_one_percent
 // gramforge: {"form":"sparse","psi":[["1",0.5135258991790184],["cos(q2)",0.4287188230917026],["sin(q2)",0.009269994446177902],["cos(q3)",0.00021104346734669672],["sin(q3)",0.004657010462807963],["cos(q4)",2.8178248560228407e-8],["sin(q4)",1.3032729589236115e-9],["sin(q5)",1.453106488578148e-8],["cos(q2 + q3)",0.0005385531183071307],["sin(q2 + q3)",0.02744089124980471],["cos(q2) cos(q2)",0.012414522628687122],["cos(q2) sin(q2)",0.0002381711344786392],["cos(q2) cos(q4) sin(q5)",3.116853166416357e-8],["cos(q2) cos(q2 + q3)",0.00006141709255914309],["cos(q2) sin(q2 + q3)",0.0021829550166786774],["sin(q2) sin(q2 + q3)",0.000031931683435124265],["cos(q4) cos(q5)",4.762157227527206e-8],["sin(q2 + q3) cos(q4) cos(q5)",6.551566889401399e-8],["sin(q4) sin(q5)",5.686831421012238e-8],["sin(q2 + q3) sin(q4) sin(q5)",7.739440562577931e-8],["sin(q4) cos(q2 + q3)",1.548374572643314e-10],["sin(q4) sin(q2 + q3)",5.1071916757167684e-8],["sin(q5) cos(q2 + q3)",1.6833149165633124e-7],["cos(q2 + q3) cos(q2 + q3)",0.0006789682709713688],["cos(q2 + q3) sin(q2 + q3)",0.000029277018699741795]],"operations":{"mul":132,"add":110,"fused":0,"other":12,"div":0,"trig_pairs":4},"exact_operations":{"mul":212,"add":200,"fused":0,"other":12,"div":0,"trig_pairs":4},"torque_error":[0.46823784556864334,0.5950827238384395,0.2407315713382485,0.03671227598536516,0.03200984384998827,0.0025616335888987906],"switching_gain":[27.8786,14.2778,7.35123,1.33114,1.08431,0.808242],"guarantee":"sampled"}
-// Size: 27046 bytes below this line
+// Size: 27045 bytes below this line
 
 /// Reduced model of `puma560_one_percent`, 6 joints: 25 functions, products counted, where the exact model has 141 ψ.
 ///
@@ -286,29 +286,29 @@ impl ::gramforge_runtime::Model<6> for Puma560OnePercent {
 ///
 /// From every initial error specified, the loop that runs holds for ever:
 ///
-/// - |q − q_d| by joint at any time: at most (0.02012, 0.02022, 0.02025, 0.02001, 0.02001, 0.02001).
-/// - The same from t = 0.8380 s on: at most (0.005163, 0.004644, 0.004852, 0.004660, 0.004527, 0.004170).
-/// - The same at the end of the motion: at most (0.004593, 0.004545, 0.004745, 0.003122, 0.002953, 0.001577).
-/// - The torque that the law asks for, by joint: from (-75.30, -14.46, -19.44, -3.777, -3.210, -2.581) to (76.23, 73.79, 25.18, 3.771, 3.251, 2.581).
+/// - |q − q_d| by joint at any time: at most (0.02010, 0.02020, 0.02023, 0.02001, 0.02001, 0.02001).
+/// - The same from t = 0.8380 s on: at most (0.005157, 0.004634, 0.004845, 0.004658, 0.004525, 0.004170).
+/// - The same at the end of the motion: at most (0.004587, 0.004538, 0.004738, 0.003115, 0.002947, 0.001574).
+/// - The torque that the law asks for, by joint: from (-74.90, -14.20, -19.35, -3.777, -3.210, -2.581) to (75.85, 73.51, 25.08, 3.771, 3.251, 2.581).
 ///
 /// The torque is computed at each sample from q, q̇ and the reference of that instant, and held for one period. The arm is
 /// the one of the specification, or one of its intervals of uncertainty.
 #[allow(dead_code, clippy::approx_constant)]
 pub const GUARANTEE: ::gramforge_runtime::Guarantee<f64, 6> = ::gramforge_runtime::Guarantee::Sampled(::gramforge_runtime::SampledErrors {
-    reach: [0.0201126, 0.0202174, 0.0202498, 0.0200044, 0.0200037, 0.0200022],
-    settle: 0.8379651528243917,
+    reach: [0.0200963, 0.0201964, 0.0202282, 0.0200044, 0.0200037, 0.0200022],
+    settle: 0.8379651528243524,
     settled_error: ::core::option::Option::Some([
-        0.00516242,
-        0.00464342,
-        0.00485174,
-        0.00465945,
-        0.00452653,
-        0.00416988,
+        0.0051569,
+        0.00463388,
+        0.00484452,
+        0.00465779,
+        0.00452469,
+        0.00416944,
     ]),
-    end_error: [0.00459214, 0.004545, 0.00474405, 0.00312156, 0.00295254, 0.00157614],
+    end_error: [0.00458699, 0.00453731, 0.00473735, 0.00311485, 0.00294621, 0.00157364],
     valid_until: ::core::option::Option::None,
-    torque_min: [-75.2991, -14.4584, -19.4382, -3.77621, -3.20982, -2.58011],
-    torque_max: [76.2254, 73.7893, 25.1718, 3.77013, 3.25084, 2.58011],
+    torque_min: [-74.8916, -14.198, -19.3412, -3.77619, -3.2098, -2.58011],
+    torque_max: [75.8463, 73.5042, 25.0702, 3.77011, 3.25082, 2.58011],
 });
 
 /// Control period, s, below which the sampled loop is stable at every D of the domain, each D kept constant. `None` if

@@ -2,7 +2,7 @@
 // Specification: SHA-256 dd271e1825d9806ce803f5ad4d5a6c7acc2e14501c0ca5ca1309548d54a73e1d
 // Made by: gramforge generate SPEC --out DIR, from the specification named puma560_xi12
 // gramforge: {"form":"expanded","psi":[["cos(q5)",0.000039546338859420765],["sin(q2 + q3)",0.011826580249173267],["cos(q2)",0.16873840932427803],["sin(2 q2)",0.00980995853992235],["cos(2 q5)",1.9978029447541294e-6],["sin(2 q2 + q3)",0.00638637371597747],["cos(q2 + q3)",0.003207834367237441],["1",0.7631786316558734],["sin(q2)",0.009236664892828258],["sin(2 q2 + 2 q3)",0.00031583324931472296],["cos(2 q2)",0.011823781417288926],["sin(q3)",0.015434388446301897]],"operations":{"mul":617,"add":636,"fused":0,"other":12,"div":0,"trig_pairs":4},"exact_operations":{"mul":212,"add":200,"fused":0,"other":12,"div":0,"trig_pairs":4},"torque_error":[0.009013341447136607,0.002378160743455101,0.0020651581727461166,0.0006874062787229519,0.0009538368514786089,9.152448602856575e-11],"switching_gain":[27.3022,13.5969,7.09884,1.2879,1.04735,0.805204],"guarantee":"sampled"}
-// Size: 76420 bytes below this line
+// Size: 76423 bytes below this line
 
 /// Reduced model of `puma560_xi12`, 6 joints: 12 of 141 ψ functions.
 ///
@@ -643,29 +643,29 @@ impl ::gramforge_runtime::Model<6> for Puma560Xi12 {
 ///
 /// From every initial error specified, the loop that runs holds for ever:
 ///
-/// - |q − q_d| by joint at any time: at most (0.02011, 0.02022, 0.02023, 0.02001, 0.02001, 0.02001).
-/// - The same from t = 0.8381 s on: at most (0.005157, 0.004669, 0.004838, 0.004646, 0.004492, 0.004173).
-/// - The same at the end of the motion: at most (0.004566, 0.004559, 0.004716, 0.003053, 0.002860, 0.001570).
-/// - The torque that the law asks for, by joint: from (-73.25, -12.34, -18.55, -3.640, -3.089, -2.572) to (74.08, 71.67, 24.29, 3.634, 3.130, 2.572).
+/// - |q − q_d| by joint at any time: at most (0.02009, 0.02020, 0.02021, 0.02001, 0.02001, 0.02001).
+/// - The same from t = 0.8381 s on: at most (0.005152, 0.004659, 0.004831, 0.004644, 0.004490, 0.004172).
+/// - The same at the end of the motion: at most (0.004561, 0.004551, 0.004710, 0.003050, 0.002853, 0.001568).
+/// - The torque that the law asks for, by joint: from (-72.86, -12.09, -18.46, -3.640, -3.089, -2.572) to (73.73, 71.39, 24.19, 3.634, 3.130, 2.572).
 ///
 /// The torque is computed at each sample from q, q̇ and the reference of that instant, and held for one period. The arm is
 /// the one of the specification, or one of its intervals of uncertainty.
 #[allow(dead_code, clippy::approx_constant)]
 pub const GUARANTEE: ::gramforge_runtime::Guarantee<f64, 6> = ::gramforge_runtime::Guarantee::Sampled(::gramforge_runtime::SampledErrors {
-    reach: [0.020101, 0.0202172, 0.0202299, 0.0200043, 0.0200036, 0.0200022],
-    settle: 0.838071357613577,
+    reach: [0.0200866, 0.0201962, 0.02021, 0.0200043, 0.0200036, 0.0200022],
+    settle: 0.8380713576135081,
     settled_error: ::core::option::Option::Some([
-        0.0051566,
-        0.00466864,
-        0.00483781,
-        0.00464562,
-        0.00449112,
-        0.00417221,
+        0.00515112,
+        0.00465892,
+        0.00483063,
+        0.00464397,
+        0.0044893,
+        0.00417178,
     ]),
-    end_error: [0.00456586, 0.00455872, 0.00471591, 0.0030525, 0.00285921, 0.00156986],
+    end_error: [0.00456059, 0.00455042, 0.00470917, 0.00304932, 0.00285249, 0.00156736],
     valid_until: ::core::option::Option::None,
-    torque_min: [-73.2404, -12.336, -18.5485, -3.63926, -3.08828, -2.57146],
-    torque_max: [74.0759, 71.6669, 24.2821, 3.63319, 3.1293, 2.57146],
+    torque_min: [-72.8511, -12.0814, -18.4577, -3.63924, -3.08826, -2.57146],
+    torque_max: [73.7236, 71.3875, 24.1867, 3.63317, 3.12928, 2.57146],
 });
 
 /// Control period, s, below which the sampled loop is stable at every D of the domain, each D kept constant. `None` if

@@ -2,7 +2,7 @@
 // Specification: SHA-256 6356d47cb8be4f17762d7be89ba44d0ca7988cac8a4c5e0b89db30c9de09bf59
 // Made by: gramforge generate SPEC --out DIR, from the specification named puma560_xi6
 // gramforge: {"form":"expanded","psi":[["cos(q5)",0.009324855173500294],["sin(q2 + q3)",0.07156920464829765],["cos(q2)",0.9182004322035673],["sin(2 q2)",0.0004037290412456438],["cos(2 q5)",0.00041325516986574643],["sin(2 q2 + q3)",0.00008852376352351117]],"operations":{"mul":479,"add":444,"fused":0,"other":12,"div":0,"trig_pairs":4},"exact_operations":{"mul":212,"add":200,"fused":0,"other":12,"div":0,"trig_pairs":4},"torque_error":[0.10742806059416483,0.216749052731679,0.1321353596514365,0.0008973914552724964,0.0012333520883920177,9.152448602856575e-11],"switching_gain":[28.1633,15.0308,7.69562,1.28976,1.0493,0.805204],"guarantee":"sampled"}
-// Size: 54937 bytes below this line
+// Size: 54939 bytes below this line
 
 /// Reduced model of `puma560_xi6`, 6 joints: 6 of 141 ψ functions.
 ///
@@ -458,29 +458,29 @@ impl ::gramforge_runtime::Model<6> for Puma560Xi6 {
 ///
 /// From every initial error specified, the loop that runs holds for ever:
 ///
-/// - |q − q_d| by joint at any time: at most (0.02011, 0.02021, 0.02024, 0.02001, 0.02001, 0.02001).
-/// - The same from t = 0.8381 s on: at most (0.005113, 0.004568, 0.004784, 0.004646, 0.004491, 0.004173).
-/// - The same at the end of the motion: at most (0.004548, 0.004474, 0.004684, 0.003056, 0.002863, 0.001570).
-/// - The torque that the law asks for, by joint: from (-75.91, -16.54, -20.38, -3.645, -3.095, -2.572) to (76.38, 75.88, 26.11, 3.639, 3.136, 2.572).
+/// - |q − q_d| by joint at any time: at most (0.02010, 0.02019, 0.02022, 0.02001, 0.02001, 0.02001).
+/// - The same from t = 0.8381 s on: at most (0.005107, 0.004559, 0.004777, 0.004644, 0.004489, 0.004172).
+/// - The same at the end of the motion: at most (0.004541, 0.004466, 0.004677, 0.003053, 0.002856, 0.001568).
+/// - The torque that the law asks for, by joint: from (-75.50, -16.28, -20.28, -3.645, -3.095, -2.572) to (75.98, 75.59, 26.01, 3.639, 3.136, 2.572).
 ///
 /// The torque is computed at each sample from q, q̇ and the reference of that instant, and held for one period. The arm is
 /// the one of the specification, or one of its intervals of uncertainty.
 #[allow(dead_code, clippy::approx_constant)]
 pub const GUARANTEE: ::gramforge_runtime::Guarantee<f64, 6> = ::gramforge_runtime::Guarantee::Sampled(::gramforge_runtime::SampledErrors {
-    reach: [0.0201059, 0.0202009, 0.020234, 0.0200043, 0.0200036, 0.0200022],
-    settle: 0.8380713576127602,
+    reach: [0.0200908, 0.0201814, 0.0202138, 0.0200043, 0.0200036, 0.0200022],
+    settle: 0.8380713576126323,
     settled_error: ::core::option::Option::Some([
-        0.00511217,
-        0.00456713,
-        0.00478368,
-        0.00464503,
-        0.00449081,
-        0.0041723,
+        0.0051067,
+        0.00455801,
+        0.00477661,
+        0.00464337,
+        0.00448897,
+        0.00417185,
     ]),
-    end_error: [0.00454728, 0.00447347, 0.0046837, 0.00305527, 0.00286253, 0.00156988],
+    end_error: [0.0045407, 0.00446518, 0.00467697, 0.00305206, 0.00285581, 0.00156737],
     valid_until: ::core::option::Option::None,
-    torque_min: [-75.9042, -16.5394, -20.3756, -3.64477, -3.09411, -2.57146],
-    torque_max: [76.371, 75.8703, 26.1091, 3.63869, 3.13513, 2.57146],
+    torque_min: [-75.4949, -16.2796, -20.2793, -3.64475, -3.09408, -2.57146],
+    torque_max: [75.9712, 75.5858, 26.0084, 3.63867, 3.13511, 2.57146],
 });
 
 /// Control period, s, below which the sampled loop is stable at every D of the domain, each D kept constant. `None` if

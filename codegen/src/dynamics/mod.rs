@@ -11,6 +11,6 @@ pub use jet::{Jet, enclosed_positions};
 pub(crate) use model::positions;
 pub use model::{coriolis, energy, gravity, inverse_dynamics, mass_matrix};
 pub use norms::{Size, Sizes};
-pub use recursion::{Position, passivity_torque};
+pub use recursion::{Position, inertia, passivity_torque};
 pub use running::rounding;
 pub use scalar::{Angle, Scalar};

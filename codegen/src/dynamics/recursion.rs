@@ -48,12 +48,12 @@ pub fn passivity_torque<S: Scalar>(
     v_r: &[S],
     a_r: &[S],
 ) -> Vec<S> {
-    let Some(linkage) = &arm.linkage else { return serial(arm, gravity, q, qd, v_r, a_r) };
+    let Some(linkage) = &arm.linkage else { return serial(&arm.joints, gravity, q, qd, v_r, a_r) };
     let spread = |x: &[S]| -> Vec<S> {
         let rate = |c: &Coupling| x.get(c.coordinate).map(|x| x.constant(c.multiplier) * *x);
         linkage.couplings.iter().map_while(rate).collect()
     };
-    let along = serial(&linkage.chain, gravity, q, &spread(qd), &spread(v_r), &spread(a_r));
+    let along = serial(&linkage.chain.joints, gravity, q, &spread(qd), &spread(v_r), &spread(a_r));
     let mut torque: Vec<S> =
         arm.joints.iter().zip(a_r).map(|(joint, &a)| a.constant(joint.armature) * a).collect();
     for (tau, coupling) in along.iter().zip(&linkage.couplings) {
@@ -64,9 +64,32 @@ pub fn passivity_torque<S: Scalar>(
     torque
 }
 
-/// The same of a chain all of whose joints move by themselves.
+/// D(q) by rows, kg·m² and the like; slices as for [`passivity_torque`], `like` any number of their kind.
+pub fn inertia<S: Scalar>(arm: &Arm, q: &[Position<S>], like: S) -> Vec<Vec<S>> {
+    let n = arm.dof();
+    let zero = like.constant(0.0);
+    let mut d = vec![vec![zero; n]; n];
+    for j in 0..n {
+        // An acceleration of joint j moves no body before it, and D is symmetric.
+        let first = if arm.linkage.is_none() { j } else { 0 };
+        let rest = vec![zero; n - first];
+        let mut unit = rest.clone();
+        unit[j - first] = like.constant(1.0);
+        let column = if arm.linkage.is_none() {
+            serial(&arm.joints[first..], [0.0; 3], q.get(first..).unwrap_or(&[]), &rest, &rest, &unit)
+        } else {
+            passivity_torque(arm, [0.0; 3], q, &rest, &rest, &unit)
+        };
+        for (i, entry) in (first..).zip(column) {
+            (d[i][j], d[j][i]) = (entry, entry);
+        }
+    }
+    d
+}
+
+/// The same as [`passivity_torque`] of a chain all of whose joints move by themselves.
 fn serial<S: Scalar>(
-    arm: &Arm,
+    joints: &[Joint],
     gravity: [f64; 3],
     q: &[Position<S>],
     qd: &[S],
@@ -82,15 +105,15 @@ fn serial<S: Scalar>(
         linear: lift(like, gravity.map(|g| 0.0 - g)),
         gradient: [zero; 3],
     };
-    let mut wrenches = Vec::with_capacity(arm.dof());
-    for ((((joint, &q), &qd), &v_r), &a_r) in arm.joints.iter().zip(q).zip(qd).zip(v_r).zip(a_r) {
+    let mut wrenches = Vec::with_capacity(joints.len());
+    for ((((joint, &q), &qd), &v_r), &a_r) in joints.iter().zip(q).zip(qd).zip(v_r).zip(a_r) {
         let moved = advance(joint, &parent, q, qd, v_r, a_r);
         wrenches.push(wrench(joint, &moved));
         parent = moved;
     }
     let mut torque = Vec::with_capacity(wrenches.len());
     let mut carried = (zero, zero);
-    let links: Vec<_> = arm.joints.iter().zip(q).zip(&wrenches).zip(a_r).collect();
+    let links: Vec<_> = joints.iter().zip(q).zip(&wrenches).zip(a_r).collect();
     for (((joint, &q), &(force, moment)), &a_r) in links.into_iter().rev() {
         let force = add(force, carried.0);
         let moment = add(moment, carried.1);

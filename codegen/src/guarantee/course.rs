@@ -21,6 +21,9 @@ pub(super) struct Course {
     /// Bound on what q̈_d differs from that of the start by. A step of speed counts as 2/T times its height: that adds no less to
     /// speed and position within the period.
     pub(super) late: Vec<f64>,
+    /// About the rate of q̈_d, and a bound on what q̈_d differs from that of the start and this rate by.
+    pub(super) jerk: Vec<f64>,
+    pub(super) uneven: Vec<f64>,
     /// q_d and q̇_d at the start and at the end.
     ends: [[Vec<Interval>; 2]; 2],
     /// q̈_d at the start.
@@ -63,16 +66,23 @@ impl Course {
         }
         let late = (0..n)
             .map(|i| (span.qdd[i] - Interval::point(target.qdd[i])).magnitude() + 2.0 * step[i] / period)
-            .collect();
+            .collect::<Vec<f64>>();
+        let half = (!rests).then_some(0.5 * period);
+        let jerk = |i: usize| if rests { 0.0 } else { middle(span.jerk[i]) };
+        let jerk = (0..n).map(jerk).collect();
+        let uneven = |i: usize| {
+            let apart = (at.qdd[i] - Interval::point(target.qdd[i])).magnitude();
+            if rests { late[i] } else { UP * (apart + period * ends(span.jerk[i])) }
+        };
+        let uneven = (0..n).map(uneven).collect();
         let last = (0..n).map(|i| still(i, &after.qd)).collect();
         let off = |range: &[Interval], x: &[f64]| -> Vec<f64> {
             range.iter().zip(x).map(|(range, &x)| (*range - Interval::point(x)).magnitude()).collect()
         };
         let mut apart = off(&at.q, &target.q);
         apart.extend(off(&at.qd, &target.qd));
-        let half = (!rests).then_some(0.5 * period);
         let ends = [[at.q, at.qd], [after.q, last]];
-        Self { target, drift, span, apart, late, ends, acceleration: at.qdd, half }
+        Self { target, drift, span, apart, late, jerk, uneven, ends, acceleration: at.qdd, half }
     }
 
     /// Whether nothing moves.
@@ -93,9 +103,10 @@ impl Course {
         };
         let target = Target { q: end.q, qd: vec![0.0; n], qdd: vec![0.0; n] };
         let state = [span.q.clone(), still.clone()];
-        let (apart, late) = (vec![0.0; 2 * n], vec![0.0; n]);
+        let [late, jerk, uneven] = [(); 3].map(|()| vec![0.0; n]);
+        let apart = vec![0.0; 2 * n];
         let (drift, ends) = ([still.clone(), still.clone()], [state.clone(), state]);
-        Self { target, drift, span, apart, late, ends, acceleration: still, half: None }
+        Self { target, drift, span, apart, late, jerk, uneven, ends, acceleration: still, half: None }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The dynamics about one desired state: values, slopes, and what is of second order over a box of displacements.
 
 use crate::arm::Arm;
-use crate::dynamics::{Jet, enclosed_positions, passivity_torque};
+use crate::dynamics::{Jet, enclosed_positions, inertia, passivity_torque};
 use crate::motion::Target;
 use crate::numerics::linear::Linear;
 use crate::numerics::quadratic::Quadratic;
@@ -78,24 +78,15 @@ impl Curved {
         }
     }
 
-    /// Bound on what entry `at` differs from its centre by, for displacements of q up to `x`, and that λ.
-    pub(super) fn change(&self, at: usize, x: &[f64], lambda: f64) -> f64 {
-        let linear: f64 = self.slopes.iter().zip(x).map(|(slopes, x)| slopes[at].abs() * x).sum();
-        let bent: f64 = self.bends.iter().map(|((k, l), bends)| bends[at].abs() * x[*k] * x[*l]).sum();
-        linear + bent + self.beyond(at, lambda)
-    }
-
-    /// The part of it that is of third order or rounds.
+    /// Bound on what entry `at` is off its centre, slopes and bends by, for displacements of q with that λ.
     pub(super) fn beyond(&self, at: usize, lambda: f64) -> f64 {
         lambda * lambda * lambda * self.rest[at] + self.rounding[at]
     }
 }
 
-/// One arm about a desired state. Displacements are those of (q, q̇) from (q_d, q̇_d).
+/// One arm about a desired state, but for its mass matrix. Displacements are those of (q, q̇) from (q_d, q̇_d).
 #[derive(Clone, Debug)]
 pub(super) struct Enclosure {
-    /// D(q), n×n: a function of the displacement of q alone.
-    pub(super) mass_matrix: Curved,
     /// The Christoffel form C(q, q̇), n×n.
     pub(super) coriolis: Forms,
     /// D a_r + C v + G with a_r = q̈_d − P12 q̇_e: v is v_r = q̇_d − P12 q_e for the arm of the model, and q̇ for what an
@@ -117,21 +108,42 @@ pub(super) struct Around<'a> {
 impl Enclosure {
     /// Of `arm`; of what an uncertain number adds, where it is not `own`.
     pub(super) fn new(arm: &Arm, around: Around, own: bool) -> Self {
-        // N, 2N and N(N + 1)/2 for at most N joints: each size takes the compiler seconds, and the larger one gives the same bits.
+        // 2N for at most N joints: each size takes the compiler seconds, and the larger one gives the same bits.
         match arm.dof() {
-            0..=3 => enclose::<3, 6, 6>(arm, around, own),
-            4..=6 => enclose::<6, 12, 21>(arm, around, own),
-            7 => enclose::<7, 14, 28>(arm, around, own),
-            _ => enclose::<8, 16, 36>(arm, around, own),
+            0..=3 => enclose::<6>(arm, around, own),
+            4..=6 => enclose::<12>(arm, around, own),
+            7 => enclose::<14>(arm, around, own),
+            _ => enclose::<16>(arm, around, own),
         }
     }
 }
 
-fn enclose<const N: usize, const V: usize, const B: usize>(
-    arm: &Arm,
-    around: Around,
-    own: bool,
-) -> Enclosure {
+impl Curved {
+    /// D of `arm`.
+    pub(super) fn of(arm: &Arm, around: Around) -> Self {
+        // N and N(N + 1)/2.
+        match arm.dof() {
+            0..=3 => curved::<3, 6>(arm, around),
+            4..=6 => curved::<6, 21>(arm, around),
+            7 => curved::<7, 28>(arm, around),
+            _ => curved::<8, 36>(arm, around),
+        }
+    }
+}
+
+impl Forms {
+    /// D of `arm`, n×n, as a function of the displacement of q.
+    pub(super) fn of_inertia(arm: &Arm, around: Around) -> Self {
+        match arm.dof() {
+            0..=3 => straight::<6>(arm, around),
+            4..=6 => straight::<12>(arm, around),
+            7 => straight::<14>(arm, around),
+            _ => straight::<16>(arm, around),
+        }
+    }
+}
+
+fn enclose<const V: usize>(arm: &Arm, around: Around, own: bool) -> Enclosure {
     let Around { target, p12, half } = around;
     let n = arm.dof();
     let zero = Linear::<V>::point(0.0);
@@ -147,7 +159,6 @@ fn enclose<const N: usize, const V: usize, const B: usize>(
         let entries: Vec<Linear<V>> = (0..n * n).map(|at| columns[at % n][at / n]).collect();
         Forms::new(&entries, half, variables)
     };
-    let mass_matrix = mass_matrix::<N, B>(arm, target, half);
     let coriolis = columns(&|j| passivity_torque(arm, [0.0; 3], &positions, &qd, &unit(j), &rest), 2 * n);
     let weighed = |i: usize, from: usize| {
         let term = |sum: Linear<V>, j: usize| {
@@ -161,22 +172,21 @@ fn enclose<const N: usize, const V: usize, const B: usize>(
     let torque = passivity_torque(arm, arm.gravity, &positions, &qd, v, &a_r);
     let rate = rate(arm, target, &q, &qd);
     let forms = |numbers: &[Linear<V>]| Forms::new(numbers, half, 2 * n);
-    Enclosure { mass_matrix, coriolis, torque: forms(&torque), rate: forms(&rate) }
+    Enclosure { coriolis, torque: forms(&torque), rate: forms(&rate) }
 }
 
-fn mass_matrix<const N: usize, const B: usize>(arm: &Arm, target: &Target, half: &[f64]) -> Curved {
-    let n = arm.dof();
-    let point = Quadratic::<N, B>::point;
+fn curved<const N: usize, const B: usize>(arm: &Arm, around: Around) -> Curved {
+    let (n, target, half) = (arm.dof(), around.target, around.half);
     let q: Vec<Quadratic<N, B>> = (0..n).map(|i| Quadratic::unknown(target.q[i], i, half[i])).collect();
-    let positions = enclosed_positions(arm, &q);
-    let rest = vec![point(0.0); n];
-    let column = |j: usize| {
-        let unit: Vec<_> = (0..n).map(|i| point(if i == j { 1.0 } else { 0.0 })).collect();
-        passivity_torque(arm, [0.0; 3], &positions, &rest, &rest, &unit)
-    };
-    let columns: Vec<Vec<_>> = (0..n).map(column).collect();
-    let entries: Vec<_> = (0..n * n).map(|at| columns[at % n][at / n]).collect();
-    Curved::new(&entries, half, n)
+    let d = inertia(arm, &enclosed_positions(arm, &q), Quadratic::point(0.0));
+    Curved::new(&d.concat(), half, n)
+}
+
+fn straight<const V: usize>(arm: &Arm, around: Around) -> Forms {
+    let (n, target, half) = (arm.dof(), around.target, around.half);
+    let q: Vec<Linear<V>> = (0..n).map(|i| Linear::unknown(target.q[i], i, half[i])).collect();
+    let d = inertia(arm, &enclosed_positions(arm, &q), Linear::point(0.0));
+    Forms::new(&d.concat(), half, n)
 }
 
 fn rate<const V: usize>(arm: &Arm, target: &Target, q: &[Linear<V>], qd: &[Linear<V>]) -> Vec<Linear<V>> {
@@ -211,6 +221,7 @@ mod tests {
         let half = [0.05, 0.08, 0.1, 0.3, 0.2, 0.5];
         let around = Around { target: &target, p12: &p12, half: &half };
         let made = Enclosure::new(&arm, around, true);
+        let (curved, straight) = (Curved::of(&arm, around), Forms::of_inertia(&arm, around));
         let spread = LowDiscrepancy::new(6);
         for index in 0..3000 {
             for size in [1.0, 0.2] {
@@ -225,7 +236,9 @@ mod tests {
                 let a_r: Vec<f64> = (0..n).map(|i| target.qdd[i] - dot(&p12[i], &x[n..])).collect();
                 for i in 0..n {
                     for j in 0..n {
-                        let form = &made.mass_matrix;
+                        let known = straight.centre[i * n + j] + dot(straight.slopes(i * n + j), &x[..n]);
+                        assert!((d[i][j] - known).abs() <= straight.beyond(i * n + j, size) + 1e-12);
+                        let form = &curved;
                         let known = form.centre[i * n + j]
                             + (0..n).map(|k| form.slopes[k][i * n + j] * x[k]).sum::<f64>()
                             + form.bends.iter().map(|((k, l), b)| b[i * n + j] * x[*k] * x[*l]).sum::<f64>();

@@ -3,29 +3,39 @@
 use nalgebra::DMatrix;
 
 use super::course::{Course, Lag};
-use super::enclosure::{Around, Enclosure};
+use super::enclosure::{Around, Curved, Enclosure, Forms};
 use super::problem::Problem;
-use crate::numerics::linalg::dense;
+use crate::numerics::linalg::{dense, weighed};
 
 /// What one uncertain number adds.
 #[derive(Clone, Debug)]
 pub(super) struct Added {
     /// What its arm has, where it is one of inertia.
     pub(super) enclosure: Enclosure,
-    /// Wᵀ D_m, and the lengths of the rows of Wᵀ D_m W.
-    pub(super) turned: Vec<f64>,
-    pub(super) lengths: Vec<f64>,
+    /// Its D_m, and that at the start.
+    pub(super) mass_matrix: Forms,
+    pub(super) inertia: Turned,
     /// Bound on |d/dt(D_m q̈_d + n_m)| along the desired motion, with q̈_d held.
     pub(super) lag_rate: Vec<f64>,
 }
 
-/// What the product of two displacements adds to D, ½∂_k∂_l D for both orders: Wᵀ of it by rows, and the lengths of the rows of
-/// Wᵀ of it W.
+/// A part of D, A, as the eigenvectors of D see it. All matrices by rows.
+#[derive(Clone, Debug)]
+pub(super) struct Turned {
+    /// Wᵀ A.
+    pub(super) left: Vec<f64>,
+    /// Bounds on the entries of Wᵀ A W and of Wᵀ A W Wᵀ.
+    pub(super) entries: Vec<f64>,
+    pub(super) pulls: Vec<f64>,
+    /// Bounds on the lengths of the rows of Wᵀ A W.
+    pub(super) lengths: Vec<f64>,
+}
+
+/// What the product of two displacements adds to D, ½∂_k∂_l D for both orders.
 #[derive(Clone, Debug)]
 pub(super) struct Bend {
     pub(super) pair: (usize, usize),
-    pub(super) turned: Vec<f64>,
-    pub(super) lengths: Vec<f64>,
+    pub(super) inertia: Turned,
 }
 
 /// All that a period needs of arm and motion.
@@ -35,19 +45,19 @@ pub(super) struct Local {
     /// Half the sides of the box of displacements that it holds for: of q, then of q̇.
     pub(super) half: Vec<f64>,
     pub(super) arm: Enclosure,
+    /// Its D.
+    pub(super) mass_matrix: Curved,
     pub(super) added: Vec<Added>,
     /// Columns W of D⁻¹ at the start: W Wᵀ is near it, and `inverse` is W Wᵀ as computed.
     pub(super) w: Vec<Vec<f64>>,
     pub(super) inverse: Vec<Vec<f64>>,
     /// |W||Wᵀ|.
     pub(super) inverse_size: Vec<Vec<f64>>,
-    /// Wᵀ ∂_kD for each k, n×n by rows, one after the other.
-    pub(super) slopes: Vec<f64>,
-    /// Lengths of the rows of Wᵀ ∂_kD W, k by k.
-    pub(super) slope_lengths: Vec<Vec<f64>>,
+    /// ∂_kD for each k.
+    pub(super) slopes: Vec<Turned>,
     /// The same for each product of two displacements.
     pub(super) bends: Vec<Bend>,
-    /// The same of what is of third order in D, of what rounds in it, and of Wᵀ D W − 1.
+    /// Lengths of the rows of Wᵀ A W for what is of third order in D and for what rounds in it, and those of Wᵀ D W − 1.
     pub(super) rest_lengths: Vec<f64>,
     pub(super) rounding_lengths: Vec<f64>,
     pub(super) unit_lengths: Vec<f64>,
@@ -60,8 +70,9 @@ impl Local {
     pub(super) fn new(problem: &Problem, course: Course, half: Vec<f64>) -> Option<Self> {
         let around = Around { target: &course.target, p12: &problem.gains.p12, half: &half };
         let arm = Enclosure::new(problem.arm, around, true);
+        let mass_matrix = Curved::of(problem.arm, around);
         let n = problem.arm.dof();
-        let d: Vec<Vec<f64>> = arm.mass_matrix.centre.chunks(n).map(<[f64]>::to_vec).collect();
+        let d: Vec<Vec<f64>> = mass_matrix.centre.chunks(n).map(<[f64]>::to_vec).collect();
         let w = factor(&d)?;
         let size = |i: usize, j: usize| -> f64 { (0..n).map(|k| w[i][k].abs() * w[j][k].abs()).sum() };
         let entry = |i: usize, j: usize| -> f64 { (0..n).map(|k| w[i][k] * w[j][k]).sum() };
@@ -70,43 +81,39 @@ impl Local {
         };
         let inverse = square(&entry);
         let inverse_size = square(&size);
-        let mut slopes = Vec::with_capacity(n * n * n);
-        let mut slope_lengths = Vec::with_capacity(n);
-        for k in 0..n {
-            let (turned, lengths) = turned(&w, &|i, j| arm.mass_matrix.slopes[k][i * n + j]);
-            slopes.extend(turned);
-            slope_lengths.push(lengths);
-        }
-        let bends = arm.mass_matrix.bends.iter().map(|(pair, bends)| {
-            let (turned, lengths) = turned(&w, &|i, j| bends[i * n + j]);
-            Bend { pair: *pair, turned, lengths }
-        });
+        let slopes = mass_matrix.slopes.iter().map(|slopes| Turned::new(&w, &|i, j| slopes[i * n + j]));
+        let slopes = slopes.collect();
+        let bends = mass_matrix
+            .bends
+            .iter()
+            .map(|(pair, bends)| Bend { pair: *pair, inertia: Turned::new(&w, &|i, j| bends[i * n + j]) });
         let bends = bends.collect();
         let sized: Vec<Vec<f64>> = w.iter().map(|row| row.iter().map(|x| x.abs()).collect()).collect();
-        let rest_lengths = turned(&sized, &|i, j| arm.mass_matrix.rest[i * n + j]).1;
-        let rounding = turned(&sized, &|i, j| arm.mass_matrix.rounding[i * n + j] + ROUNDED * d[i][j].abs());
+        let rest_lengths = Turned::new(&sized, &|i, j| mass_matrix.rest[i * n + j]).lengths;
+        let rounding = Turned::new(&sized, &|i, j| mass_matrix.rounding[i * n + j] + ROUNDED * d[i][j].abs());
         let unit_lengths = unit_lengths(&w, &d);
         let added = problem.numbers.iter().map(|number| {
             let enclosure = Enclosure::new(&number.arm, around, false);
-            let (turned, lengths) = turned(&w, &|i, j| enclosure.mass_matrix.centre[i * n + j]);
+            let mass_matrix = Forms::of_inertia(&number.arm, around);
+            let inertia = Turned::new(&w, &|i, j| mass_matrix.centre[i * n + j]);
             let lag = Lag::new(&number.arm, &course, &[]);
             let lag_rate = lag.rate.iter().map(|rate| rate.magnitude()).collect();
-            Added { enclosure, turned, lengths, lag_rate }
+            Added { enclosure, mass_matrix, inertia, lag_rate }
         });
         let added = added.collect();
         let viscous: Vec<f64> = problem.arm.joints.iter().map(|joint| joint.viscous_friction).collect();
         let lag = Lag::new(problem.arm, &course, &viscous);
-        let rounding_lengths = rounding.1;
+        let rounding_lengths = rounding.lengths;
         Some(Self {
             course,
             half,
             arm,
+            mass_matrix,
             added,
             w,
             inverse,
             inverse_size,
             slopes,
-            slope_lengths,
             bends,
             rest_lengths,
             rounding_lengths,
@@ -135,21 +142,35 @@ fn factor(d: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     Some((0..n).map(|i| (0..n).map(|k| entry(i, k)).collect()).collect())
 }
 
-/// Wᵀ M by rows, and the lengths of the rows of Wᵀ M W.
-fn turned(w: &[Vec<f64>], m: &dyn Fn(usize, usize) -> f64) -> (Vec<f64>, Vec<f64>) {
-    let n = w.len();
-    let mut left = vec![0.0; n * n];
-    let mut lengths = Vec::with_capacity(n);
-    for i in 0..n {
-        let row = &mut left[i * n..(i + 1) * n];
-        for (j, out) in row.iter_mut().enumerate() {
-            *out = (0..n).map(|k| w[k][i] * m(k, j)).sum();
+impl Turned {
+    fn new(w: &[Vec<f64>], part: &dyn Fn(usize, usize) -> f64) -> Self {
+        let n = w.len();
+        let mut out = Self {
+            left: vec![0.0; n * n],
+            entries: Vec::with_capacity(n * n),
+            pulls: Vec::with_capacity(n * n),
+            lengths: Vec::with_capacity(n),
+        };
+        for i in 0..n {
+            let row = &mut out.left[i * n..(i + 1) * n];
+            for (j, left) in row.iter_mut().enumerate() {
+                *left = (0..n).map(|k| w[k][i] * part(k, j)).sum();
+            }
+            let size =
+                |k: usize| -> f64 { row.iter().map(|x| x.abs()).zip(w).map(|(x, w)| x * w[k].abs()).sum() };
+            let sizes: Vec<f64> = (0..n).map(size).collect();
+            let entry = |j: usize| -> f64 { row.iter().zip(w).map(|(x, w)| x * w[j]).sum() };
+            let entries: Vec<f64> = (0..n).map(entry).collect();
+            let pull = |j: usize| -> f64 {
+                let of: f64 = w[j].iter().zip(&entries).map(|(w, x)| w * x).sum();
+                of.abs() + ROUNDED * weighed(&w[j], &sizes)
+            };
+            out.pulls.extend((0..n).map(pull));
+            out.lengths.push(libm::sqrt(entries.iter().map(|x| x * x).sum()) * (1.0 + 1e-9));
+            out.entries.extend(entries.iter().zip(&sizes).map(|(x, size)| x.abs() + ROUNDED * size));
         }
-        let entry = |j: usize| -> f64 { (0..n).map(|k| row[k] * w[k][j]).sum() };
-        let square: f64 = (0..n).map(|j| entry(j) * entry(j)).sum();
-        lengths.push(libm::sqrt(square) * (1.0 + 1e-9));
+        out
     }
-    (left, lengths)
 }
 
 /// Lengths of the rows of Wᵀ D W − 1.
@@ -168,7 +189,7 @@ impl Added {
     pub(super) fn changed_length(&self, w: &[Vec<f64>], i: usize, away: &[f64], lambda: f64) -> f64 {
         let n = w.len();
         let left = |j: usize| -> f64 {
-            (0..n).map(|k| w[k][i].abs() * self.enclosure.mass_matrix.change(k * n + j, away, lambda)).sum()
+            (0..n).map(|k| w[k][i].abs() * self.mass_matrix.change(k * n + j, away, lambda)).sum()
         };
         let left: Vec<f64> = (0..n).map(left).collect();
         let entry = |j: usize| -> f64 { (0..n).map(|k| left[k] * w[k][j].abs()).sum() };

@@ -44,3 +44,8 @@ pub(super) fn product(m: &[Vec<f64>], other: &[Vec<f64>]) -> Vec<Vec<f64>> {
     };
     m.iter().map(row).collect()
 }
+
+/// M x by rows.
+pub(super) fn times(m: &[Vec<f64>], x: &[f64]) -> Vec<f64> {
+    m.iter().map(|row| row.iter().zip(x).map(|(m, x)| m * x).sum()).collect()
+}

@@ -3,11 +3,13 @@
 //! With x = (q_e, v) at the sample, q̈_e(t) = −P12 v + D(t)⁻¹ w(t) + (q̈_d − q̈_d(t)), w = u + what is wrong + what the held torque
 //! lags behind, and u = Pqq q_e − (K + C) s − σρ. See `docs/method.md`, section 9.
 
+mod family;
 mod inertia;
 mod load;
 mod moved;
 mod sample;
 mod switching;
+mod trend;
 
 use super::local::Local;
 use super::numbers::{ROUNDED, UP, product};
@@ -78,37 +80,46 @@ impl Sample<'_> {
                 row
             })
             .collect();
-        let straight = set.image(&pulled).sizes();
-        let by_slopes = self.pushed.sizes_under(&local.slopes, &mut Vec::new());
-        let by_numbers: Vec<Vec<f64>> =
-            local.added.iter().map(|added| self.pushed.sizes_under(&added.turned, &mut Vec::new())).collect();
-        let follows = |acceleration: &[f64]| {
-            let within = self.within(acceleration)?;
-            let load = self.load(acceleration, &within);
-            let turned = self.turned(&within, &load, &by_slopes, &by_numbers)?;
-            let next: Vec<f64> = (0..n)
-                .map(|i| {
-                    let pushed = straight[i] + weighed(&local.inverse[i], &load.most);
-                    UP * (pushed + weighed(&local.w[i], &turned) + local.course.late[i] + self.rounded(i))
-                })
-                .collect();
-            Ok((next, load, turned))
+        let mut straight = set.image(&pulled);
+        self.family.drive(problem, &mut straight, None);
+        let straight = straight.sizes();
+        let by_slopes: Vec<Vec<f64>> =
+            local.slopes.iter().map(|slopes| self.pushed.sizes_under(&slopes.left)).collect();
+        let follows = |beyond: &[f64]| {
+            let within = self.within(&straight, beyond)?;
+            let load = self.load(&within);
+            let turned = self.turned(&within, &load, &by_slopes)?;
+            let next = (0..n).map(|i| self.beyond_start(i, &load, &turned));
+            Ok((next.collect::<Vec<f64>>(), within.acceleration, load, turned))
         };
-        let mut acceleration: Vec<f64> = (0..n).map(|i| 1.2 * guess[i].max(straight[i])).collect();
+        let mut beyond: Vec<f64> =
+            (0..n).map(|i| 1.2 * (guess[i] - straight[i]).max(0.1 * straight[i])).collect();
         for _ in 0..ROUNDS {
-            let (next, ..) = follows(&acceleration)?;
-            if next.iter().zip(&acceleration).all(|(next, bound)| next <= bound) {
+            let (next, ..) = follows(&beyond)?;
+            if next.iter().zip(&beyond).all(|(next, bound)| next <= bound) {
                 // The bound that follows holds as well, and what follows from that is smaller.
-                return follows(&next);
+                let (_, acceleration, load, turned) = follows(&next)?;
+                return Ok((acceleration, load, turned));
             }
             if !next.iter().all(|x| x.is_finite()) {
                 return Err(Stop::Acceleration);
             }
-            for (bound, next) in acceleration.iter_mut().zip(next) {
+            for (bound, next) in beyond.iter_mut().zip(next) {
                 *bound = 1.2 * bound.max(next);
             }
         }
         Err(Stop::Acceleration)
+    }
+
+    /// Bound on what q̈_e differs from its value at the start, without products, and the trend of the desired motion by.
+    fn beyond_start(&self, i: usize, load: &Load, turned: &[f64]) -> f64 {
+        let Self { problem, local, .. } = *self;
+        let (t, trend) = (problem.period, &self.trend);
+        let known = |j: usize| t * self.rates[j] + t * t * trend.bent[j].abs();
+        let torque: Vec<f64> = (0..self.n).map(|j| load.most[j] + known(j)).collect();
+        let inertia: Vec<f64> = (0..self.n).map(|j| turned[j] + self.known_turned(j)).collect();
+        let pushed = weighed(&local.inverse[i], &torque) + weighed(&local.w[i], &inertia);
+        UP * (pushed + local.course.uneven[i] + self.rounded(i) + t * trend.rounded[i])
     }
 
     /// What −P12 v + D⁻¹u of the start rounds by.

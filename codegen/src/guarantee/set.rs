@@ -1,6 +1,7 @@
 //! The set of errors at a sample: a zonotope in x = (q_e, q̇_e).
 
 use crate::control::Gains;
+use crate::numerics::linalg::weighed;
 
 /// Generators for each component of x that are kept when others are boxed.
 const KEPT: usize = 60;
@@ -9,13 +10,14 @@ const UP: f64 = 1.0 + 1e-12;
 /// A bound on what a product of 2n numbers rounds by, relative to what is summed.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// {centre + Σ_m u_m shared_m + Σ_g ε_g generator_g + b}, |u_m| ≤ 1, |ε_g| ≤ 1, |b| ≤ `boxed`.
+/// {centre + Σ_m (u_m g_m + (2u_m² − 1) h_m) + Σ_g ε_g generator_g + b}, |u_m| ≤ 1, |ε_g| ≤ 1, |b| ≤ `boxed`.
 ///
 /// The u_m are the uncertain numbers: they are the same at every sample.
 #[derive(Clone, Debug)]
 pub(super) struct ErrorSet {
     n: usize,
     pub(super) centre: Vec<f64>,
+    /// All g_m, then all h_m.
     pub(super) shared: Vec<Vec<f64>>,
     /// Component by component.
     rows: Vec<Vec<f64>>,
@@ -24,18 +26,26 @@ pub(super) struct ErrorSet {
 
 /// The image of a set under a linear map, for further maps: of centre and shared generators, then of the others.
 pub(super) struct Image {
+    shared: usize,
     rows: Vec<Vec<f64>>,
     boxed: Vec<f64>,
 }
 
+/// A number as 1, u_m and 2u_m² − 1 make it, and what it differs from that by.
+pub(super) struct Known {
+    /// The weights of 1, of all u_m, of all 2u_m² − 1.
+    pub(super) weights: Vec<f64>,
+    pub(super) rest: f64,
+}
+
 impl ErrorSet {
     /// |q_e| ≤ `position`, |q̇_e| ≤ `velocity`, with that many uncertain numbers.
-    pub(super) fn new(position: &[f64], velocity: &[f64], shared: usize) -> Self {
+    pub(super) fn new(position: &[f64], velocity: &[f64], numbers: usize) -> Self {
         let n = position.len();
         let mut set = Self {
             n,
             centre: vec![0.0; 2 * n],
-            shared: vec![vec![0.0; 2 * n]; shared],
+            shared: vec![vec![0.0; 2 * n]; 2 * numbers],
             rows: vec![Vec::new(); 2 * n],
             boxed: vec![0.0; 2 * n],
         };
@@ -96,21 +106,14 @@ impl ErrorSet {
         for weights in map {
             let mut row = vec![0.0; columns];
             let (apart, own) = row.split_at_mut(1 + self.shared.len());
-            let mut wide = 0.0;
-            for (k, &weight) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
-                apart[0] += weight * self.centre[k];
-                for (out, shared) in apart[1..].iter_mut().zip(&self.shared) {
-                    *out += weight * shared[k];
-                }
-                for (out, part) in own.iter_mut().zip(&self.rows[k]) {
-                    *out += weight * part;
-                }
-                wide += weight.abs() * self.boxed[k];
+            for (out, known) in apart.iter_mut().zip([&self.centre].into_iter().chain(&self.shared)) {
+                *out = weights.iter().zip(known).map(|(weight, x)| weight * x).sum();
             }
+            combine(weights, &self.rows, own);
             rows.push(row);
-            boxed.push(wide);
+            boxed.push(weighed(weights, &self.boxed));
         }
-        Image { rows, boxed }
+        Image { shared: self.shared.len(), rows, boxed }
     }
 
     /// Bound by component on |x|.
@@ -253,20 +256,64 @@ impl Image {
         self.rows.iter().zip(&self.boxed).map(size).collect()
     }
 
-    /// Bound on each component of `map` applied to this one.
-    pub(super) fn sizes_under(&self, map: &[f64], scratch: &mut Vec<f64>) -> Vec<f64> {
-        let n = self.rows.len();
+    /// The product of component `i` and uncertain number `m`, whose value is `middle` + `half` u_m.
+    pub(super) fn times_number(&self, i: usize, m: usize, middle: f64, half: f64) -> Known {
+        let (known, own) = self.rows[i].split_at(1 + self.shared);
+        let numbers = self.shared / 2;
+        let mut weights: Vec<f64> = known.iter().map(|x| middle * x).collect();
+        // u_m² = ½ + ½(2u_m² − 1); any other product of two of them is no larger than 1.
+        let (first, square) = (known[1 + m], 1 + numbers + m);
+        weights[1 + m] += half * known[0];
+        weights[0] += 0.5 * half * first;
+        weights[square] += 0.5 * half * first;
+        let size = |x: &[f64]| x.iter().map(|x| x.abs()).sum::<f64>();
+        let others = size(&known[1..]) - first.abs();
+        let own = size(own) + self.boxed[i];
+        let rounded = ROUNDING * half * (size(known) + first.abs());
+        Known { weights, rest: UP * (half * others + (middle.abs() + half) * own + rounded) }
+    }
+
+    /// The image of this one under `map`, n×n by rows.
+    pub(super) fn under(&self, map: &[f64]) -> Self {
         let row = |weights: &[f64]| {
-            scratch.clear();
-            scratch.resize(self.rows.first().map_or(0, Vec::len), 0.0);
-            let mut wide = 0.0;
-            for ((weight, row), boxed) in weights.iter().zip(&self.rows).zip(&self.boxed) {
-                scratch.iter_mut().zip(row).for_each(|(out, part)| *out += weight * part);
-                wide += weight.abs() * boxed;
-            }
-            UP * (scratch.iter().map(|x| x.abs()).sum::<f64>() + wide)
+            let mut out = vec![0.0; self.rows.first().map_or(0, Vec::len)];
+            combine(weights, &self.rows, &mut out);
+            (out, weighed(weights, &self.boxed))
         };
-        map.chunks(n).map(row).collect()
+        let (rows, boxed) = map.chunks(self.rows.len().max(1)).map(row).unzip();
+        Self { shared: self.shared, rows, boxed }
+    }
+
+    /// Bound on each component of `map` applied to this one.
+    pub(super) fn sizes_under(&self, map: &[f64]) -> Vec<f64> {
+        let mut out = vec![0.0; self.rows.first().map_or(0, Vec::len)];
+        let row = |weights: &[f64]| {
+            combine(weights, &self.rows, &mut out);
+            UP * (out.iter().map(|x| x.abs()).sum::<f64>() + weighed(weights, &self.boxed))
+        };
+        map.chunks(self.rows.len().max(1)).map(row).collect()
+    }
+}
+
+/// Columns that are summed together: their sums stay in registers.
+const TOGETHER: usize = 8;
+
+/// `out` = Σ_k weights_k rows_k.
+fn combine(weights: &[f64], rows: &[Vec<f64>], out: &mut [f64]) {
+    let whole = out.len() / TOGETHER * TOGETHER;
+    let (body, tail) = out.split_at_mut(whole);
+    for (c, out) in body.chunks_exact_mut(TOGETHER).enumerate() {
+        let mut sums = [0.0; TOGETHER];
+        let from = c * TOGETHER;
+        for (weight, row) in weights.iter().zip(rows) {
+            if let Some(parts) = row.get(from..from + TOGETHER) {
+                sums.iter_mut().zip(parts).for_each(|(sum, part)| *sum += weight * part);
+            }
+        }
+        out.iter_mut().zip(sums).for_each(|(out, sum)| *out = sum);
+    }
+    for (c, out) in (whole..).zip(tail) {
+        *out = weights.iter().zip(rows).map(|(weight, row)| weight * row[c]).sum();
     }
 }
 

@@ -21,19 +21,30 @@ fn diagonal(x: [f64; 3]) -> Vec<Vec<f64>> {
 
 /// The three-link arm at rest for 0.05 s under law (16).
 fn judged<T>(damping: f64, f: impl FnOnce(&Problem) -> T) -> T {
-    let arm: Arm = three_link();
     let place = vec![0.2, 0.5, -1.4];
     let motion = Motion::Quintic { from: place.clone(), to: place, duration: 0.05 };
+    of(&three_link(), &motion, damping, f)
+}
+
+/// The same arm with viscous friction in a fast motion.
+pub(super) fn moving(f: impl FnOnce(&Problem)) {
+    let mut arm = three_link();
+    arm.joints.iter_mut().zip([3.0, 2.0, 1.0]).for_each(|(joint, b)| joint.viscous_friction = b);
+    let motion = Motion::Quintic { from: vec![0.1, -0.4, 0.8], to: vec![1.3, 0.9, -0.7], duration: 0.7 };
+    of(&arm, &motion, 100.0, f);
+}
+
+fn of<T>(arm: &Arm, motion: &Motion, damping: f64, f: impl FnOnce(&Problem) -> T) -> T {
     let gains = Gains {
         p12: diagonal([5.0; 3]),
         damping: diagonal([2.0 * damping, 2.0 * damping, damping]),
         pqq: diagonal([2.5 * damping, 2.5 * damping, 1.25 * damping]),
     };
     f(&Problem {
-        arm: &arm,
+        arm,
         numbers: Vec::new(),
         viscous: vec![0.0; 3],
-        motion: &motion,
+        motion,
         gains: &gains,
         damping: gains.damping.clone(),
         switching: Switching::None,

@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::arms::{Case, FAST, PLAIN};
 use super::attack::{at_rest, attacked, attacks};
-use super::attacked::{no_run_leaves, printed};
+use super::attacked::{no_run_leaves, nor_stays_below, printed};
 use super::looped::Loop;
 
 #[test]
@@ -35,6 +35,16 @@ fn a_reduced_model() {
 fn an_uncertain_payload() {
     let case = Case { name: "threedof payload", payload: 0.2, ..PLAIN };
     no_run_leaves(&case, |_| (), &at_rest(case.initial), 24);
+}
+
+/// Without an initial error the bound is what the loop does to first order in the period and to second in the load.
+#[test]
+fn no_initial_error() {
+    let start = Case { initial: 0.0, ..PLAIN };
+    let loaded = Case { name: "threedof payload from no error", payload: 0.2, ..start };
+    nor_stays_below(&loaded, |_| (), &at_rest(0.0), 24, 1.05);
+    let bare = Case { name: "puma560 bare from no error", arm: "puma560", armature: false, ..start };
+    nor_stays_below(&bare, |_| (), &at_rest(0.0), 12, 1.05);
 }
 
 #[test]
@@ -78,6 +88,26 @@ fn friction() {
     let found = attacked(&own, &attacks(&own, &at_rest(case.initial), 24));
     printed(&case, &own, &found);
     assert_eq!(found.broken, None);
+}
+
+/// Where nothing but the period drives the errors, what viscous friction does within it is seen.
+#[test]
+fn viscous_friction_from_no_error() {
+    let (most, viscous) = (1.05, 20.0);
+    let case = Case { name: "threedof viscous from no error", initial: 0.0, ..FAST };
+    let generation = case
+        .made(|spec| {
+            for i in 1..=3 {
+                spec["arm"]["joints"][format!("j{i}")]["viscous_friction"] = json!(viscous);
+            }
+        })
+        .unwrap();
+    let mut own = Loop::new(&generation, &case.chain(), &case.family());
+    own.family.iter_mut().for_each(|plant| plant.viscous = [viscous; MOST]);
+    let found = attacked(&own, &attacks(&own, &at_rest(case.initial), 12));
+    let [reach, ..] = printed(&case, &own, &found);
+    assert_eq!(found.broken, None);
+    assert!(reach < most, "{reach}");
 }
 
 #[test]

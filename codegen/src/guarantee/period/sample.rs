@@ -5,7 +5,9 @@ use super::super::numbers::{ROUNDED, UP, product, scale};
 use super::super::problem::{Problem, Wrong};
 use super::super::set::{ErrorSet, Image};
 use super::Stop;
+use super::family::Family;
 use super::switching::{compensation, switched};
+use super::trend::Trend;
 use crate::numerics::linalg::weighed;
 
 /// The set at a sample and what follows from it alone.
@@ -24,6 +26,11 @@ pub(super) struct Sample<'a> {
     /// D⁻¹ of the start times u and what the uncertain numbers do on the desired motion: the two nearly cancel at rest.
     pub(super) pushed: Image,
     pub(super) pushed_size: Vec<f64>,
+    pub(super) trend: Trend,
+    pub(super) family: Family,
+    /// Bounds on the trends of torque and of −q̈_e on the set.
+    pub(super) rates: Vec<f64>,
+    pub(super) turning: Vec<f64>,
     /// Torque that is wrong and held for the period.
     pub(super) wrong: Vec<f64>,
     /// Gains of the line through the switching term, and what that differs from it by.
@@ -50,20 +57,29 @@ impl<'a> Sample<'a> {
         }
         let (line, off_line) = switched(problem, step, local, &x, &s);
         let control = control(problem, local, &line);
-        let pushed = pushed(problem, local, set.image(&product(&local.inverse, &control)));
-        let coriolis = &local.arm.coriolis;
+        let trend = Trend::new(problem, local, &control, &x);
+        let mut family = Family::new(problem, local);
+        let mut pushed = set.image(&product(&local.inverse, &control));
+        family.drive(problem, &mut pushed, None);
+        family.multiply(problem, local, set, &pushed, &x);
+        let mut rates = set.image(&trend.torque);
+        family.drive(problem, &mut rates, Some(&trend.along));
+        let (course, coriolis) = (&local.course, &local.arm.coriolis);
         let turned =
             |i: usize| -> f64 { (0..n).map(|j| coriolis.change(i * n + j, &away, lambda) * s[j]).sum() };
         let added = |i: usize| -> f64 {
-            let each = problem.numbers.iter().zip(&local.added);
-            each.map(|(number, added)| number.most() * added.enclosure.torque.change(i, &away, lambda)).sum()
+            let each = problem.numbers.iter().zip(&local.added).map(|(number, added)| {
+                let torque = &added.enclosure.torque;
+                number.most() * (weighed(torque.slopes(i), &course.apart) + torque.beyond(i, lambda))
+            });
+            each.sum::<f64>() + family.torque[i].rest
         };
-        let wrong = (0..n).map(|i| step.torque[i] + off_line[i] + turned(i) + added(i)).collect();
-        let course = &local.course;
+        let wrong: Vec<f64> = (0..n).map(|i| step.torque[i] + off_line[i] + turned(i) + added(i)).collect();
         let fed = (0..n)
             .map(|i| compensation(problem.compensated[i], course.target.qd[i], course.apart[n + i]))
             .collect();
         let pushed_size = pushed.sizes();
+        let turning = pushed.sizes_under(&trend.inertia);
         Ok(Self {
             problem,
             step,
@@ -74,6 +90,10 @@ impl<'a> Sample<'a> {
             control,
             pushed,
             pushed_size,
+            trend,
+            family,
+            rates: rates.sizes(),
+            turning,
             wrong,
             line,
             off_line,
@@ -135,18 +155,4 @@ pub(super) fn control(problem: &Problem, local: &Local, line: &[f64]) -> Vec<Vec
         row
     };
     (0..n).map(row).collect()
-}
-
-/// `image` of u with what the uncertain numbers do on the desired motion.
-fn pushed(problem: &Problem, local: &Local, mut image: Image) -> Image {
-    let along = |torque: &[f64], factor: f64| -> Vec<f64> {
-        let row = |row: &Vec<f64>| factor * row.iter().zip(torque).map(|(m, x)| m * x).sum::<f64>();
-        local.inverse.iter().map(row).collect()
-    };
-    for (m, (number, added)) in problem.numbers.iter().zip(&local.added).enumerate() {
-        let torque = &added.enclosure.torque.centre;
-        image.add(Some(m), &along(torque, -number.half));
-        image.add(None, &along(torque, -number.middle));
-    }
-    image
 }

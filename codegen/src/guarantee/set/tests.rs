@@ -65,3 +65,48 @@ fn what_is_left_beside_a_middle_is_counted_number_by_number() {
     let moved = set.less(&other).hull()[1] - left.hull()[1];
     assert!((moved - 0.09).abs() < 1e-12, "{moved}");
 }
+
+/// A member for these u_m and ε_g, without what is boxed.
+fn member(set: &ErrorSet, u: &[f64], epsilon: &[f64]) -> Vec<f64> {
+    let weights: Vec<f64> = u.iter().copied().chain(u.iter().map(|u| 2.0 * u * u - 1.0)).collect();
+    let part = |k: usize| {
+        let shared: f64 = set.shared.iter().zip(&weights).map(|(shared, weight)| shared[k] * weight).sum();
+        set.centre[k] + shared + set.rows[k].iter().zip(epsilon).map(|(x, epsilon)| x * epsilon).sum::<f64>()
+    };
+    (0..set.centre.len()).map(part).collect()
+}
+
+#[test]
+fn the_product_with_an_uncertain_number_is_known_up_to_its_rest() {
+    let (n, [middle, half]) = (2, [0.3, 0.2]);
+    let points = LowDiscrepancy::new(8);
+    let random = |index: usize, size: f64| -> Vec<f64> {
+        points.point(index).iter().map(|x| size * (2.0 * x - 1.0)).collect()
+    };
+    let mut set = ErrorSet::new(&[0.0; 2], &[0.0; 2], n);
+    set.centre.copy_from_slice(&random(1, 1.0)[..4]);
+    for (m, shared) in set.shared.iter_mut().enumerate() {
+        shared.copy_from_slice(&random(2 + m, 1.0)[..4]);
+    }
+    for index in 10..12 {
+        set.add(random(index, 0.1).into_iter());
+    }
+    let image = set.image(&[vec![1.0, 0.0, 0.0, 0.0]]);
+    for m in 0..n {
+        let known = image.times_number(0, m, middle, half);
+        let mut most: f64 = 0.0;
+        for index in 100..4000 {
+            let point = random(index, 1.0);
+            // The corners are among them.
+            let u: Vec<f64> = point[..2].iter().map(|u| (2.0 * u).clamp(-1.0, 1.0)).collect();
+            let x = member(&set, &u, &point[2..4].iter().map(|x| x.signum()).collect::<Vec<f64>>())[0];
+            let weights = [1.0, u[0], u[1], 2.0 * u[0] * u[0] - 1.0, 2.0 * u[1] * u[1] - 1.0];
+            let said: f64 = known.weights.iter().zip(weights).map(|(known, weight)| known * weight).sum();
+            let off = ((middle + half * u[m]) * x - said).abs();
+            assert!(off <= known.rest, "{off} {}", known.rest);
+            most = most.max(off);
+        }
+        // The rest is no larger than it must be.
+        assert!(most > 0.5 * known.rest, "{most} {}", known.rest);
+    }
+}
