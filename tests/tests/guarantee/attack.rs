@@ -4,8 +4,9 @@ use gramforge_tests::plant::{MOST, Row, row};
 use gramforge_tests::random::Random;
 use rayon::prelude::*;
 
+use super::found::Found;
 use super::frozen::{Aim, Frozen, Sensitivity};
-use super::looped::{Attack, Found, Loop};
+use super::looped::{Attack, Loop};
 
 /// Times at which an error that starts with the run may be largest, s.
 const EARLY: [f64; 6] = [0.005, 0.02, 0.05, 0.1, 0.2, 0.4];

@@ -7,7 +7,8 @@ use serde_json::Value;
 use super::arms::{Case, chain};
 use super::attack::{at_rest, attacked, attacks};
 use super::cases::{named, others};
-use super::looped::{Found, Loop};
+use super::found::Found;
+use super::looped::Loop;
 
 /// What the printed columns are: what is promised over what is found, for the joint where that is largest.
 const HEAD: &str = "| case | runs | reach | settled | torque | end | part of the model's bound | broken |";

@@ -47,6 +47,21 @@ fn no_initial_error() {
     nor_stays_below(&bare, |_| (), &at_rest(0.0), 12, 1.05);
 }
 
+/// What holds for ever holds for long, while the model is wrong on the worst side or a load stays.
+#[test]
+fn ten_seconds_at_rest() {
+    let report = Case { name: "threedof report at rest", law: "report", tolerance: 0.01, ..PLAIN };
+    let loaded = Case { name: "threedof payload at rest", payload: 0.2, ..PLAIN };
+    for case in [report, loaded] {
+        let generation = case.made(|_| ()).unwrap();
+        assert_eq!(generation.statement().unwrap().sampled.as_ref().unwrap().valid_until, None);
+        let own = Loop::until(&generation, &case.chain(), &case.family(), 10.0);
+        let found = attacked(&own, &attacks(&own, &at_rest(case.initial), 24));
+        printed(&case, &own, &found);
+        assert_eq!(found.broken, None, "{}", case.name);
+    }
+}
+
 #[test]
 fn both_robust_gains() {
     let case = Case { name: "threedof tight", law: "tight", tolerance: 0.01, ..PLAIN };

@@ -7,8 +7,12 @@ use gramforge::spec::ScalarSpec;
 use gramforge_tests::chain::Chain;
 use gramforge_tests::plant::{Plant, Row, row};
 
+use super::found::Found;
+
 /// Longest Runge–Kutta step, s.
 const LONGEST: f64 = 0.5e-3;
+/// Time that a run goes on after a motion that rests at its end, s.
+const AFTER: f64 = 1.0;
 /// What the simulation itself may be off by, rad or m: the rounding of positions, and what Runge–Kutta steps leave out.
 pub const OWN: f64 = 1e-12;
 
@@ -53,60 +57,18 @@ pub struct Attack {
     pub sides: Vec<[i8; gramforge_tests::plant::MOST]>,
 }
 
-/// The largest of some runs, by joint.
-#[derive(Clone, Debug)]
-pub struct Found {
-    pub runs: usize,
-    pub reach: Row,
-    pub settled: Row,
-    pub end: Row,
-    pub torque: [Row; 2],
-    /// Largest error of the model as a part of its bound.
-    pub model_error: f64,
-    /// The first broken promise.
-    pub broken: Option<String>,
-}
-
-impl Default for Found {
-    fn default() -> Self {
-        let zero = row(&[]);
-        Self {
-            runs: 0,
-            reach: zero,
-            settled: zero,
-            end: zero,
-            torque: [
-                [f64::INFINITY; gramforge_tests::plant::MOST],
-                [f64::NEG_INFINITY; gramforge_tests::plant::MOST],
-            ],
-            model_error: 0.0,
-            broken: None,
-        }
-    }
-}
-
-impl Found {
-    pub fn with(mut self, other: &Self) -> Self {
-        for i in 0..self.reach.len() {
-            self.reach[i] = self.reach[i].max(other.reach[i]);
-            self.settled[i] = self.settled[i].max(other.settled[i]);
-            self.end[i] = self.end[i].max(other.end[i]);
-            self.torque[0][i] = self.torque[0][i].min(other.torque[0][i]);
-            self.torque[1][i] = self.torque[1][i].max(other.torque[1][i]);
-        }
-        self.runs += other.runs;
-        self.model_error = self.model_error.max(other.model_error);
-        self.broken = self.broken.or_else(|| other.broken.clone());
-        self
-    }
-}
-
 impl Loop {
     /// The loop of `generation` on the arms `family`, for the motion and 1 s more if it rests at its end.
     pub fn new(generation: &Generation, specified: &Chain, family: &[Chain]) -> Self {
+        Self::until(generation, specified, family, AFTER)
+    }
+
+    /// The same, with `rest` s after a motion that rests at its end.
+    pub fn until(generation: &Generation, specified: &Chain, family: &[Chain], rest: f64) -> Self {
         let statement = generation.statement().expect("a statement");
         assert_eq!(statement.kind, Kind::Sampled, "{:?}", statement.reasons);
-        Self::promised(generation, specified, family, statement.sampled.clone().expect("what is proved"))
+        let sampled = statement.sampled.clone().expect("what is proved");
+        Self::promised(generation, specified, family, sampled, rest)
     }
 
     /// The same, of which nothing is promised, with the model as it is.
@@ -129,15 +91,21 @@ impl Loop {
             torque_time: vec![0.0; specified.dof()],
             course: Vec::new(),
         };
-        Self { push: Vec::new(), ..Self::promised(generation, specified, family, promised) }
+        Self { push: Vec::new(), ..Self::promised(generation, specified, family, promised, AFTER) }
     }
 
-    fn promised(generation: &Generation, specified: &Chain, family: &[Chain], promised: Sampled) -> Self {
+    fn promised(
+        generation: &Generation,
+        specified: &Chain,
+        family: &[Chain],
+        promised: Sampled,
+        rest: f64,
+    ) -> Self {
         let motion = generation.motion().expect("a motion").clone();
         let design = generation.design().expect("a controller").clone();
         let (n, period) = (generation.given().dof(), design.period);
         let end = (motion.duration() / period - 1e-9).ceil() as usize;
-        let periods = end + if motion.rests() { (1.0 / period).ceil() as usize } else { 0 };
+        let periods = end + if motion.rests() { (rest / period).ceil() as usize } else { 0 };
         let substeps = (period / LONGEST - 1e-9).ceil().max(1.0) as usize;
         let target = |t: f64| {
             let at = motion.at(t);

@@ -8,6 +8,7 @@ mod attack;
 mod attacked;
 mod cases;
 mod daily;
+mod found;
 mod frozen;
 mod looped;
 mod promises;
