@@ -211,7 +211,7 @@ mod tests {
 
     use super::*;
     use crate::dynamics::inverse_dynamics;
-    use crate::simulate::example::three_link;
+    use crate::simulate::example::{three_link, two_of_three};
 
     fn wobble(frequency: f64, duration: f64) -> Motion {
         let term = |amplitude| vec![Sinusoid { amplitude, frequency, phase: 0.0 }];
@@ -266,16 +266,7 @@ mod tests {
 
     #[test]
     fn joints_that_follow_others_count() {
-        let chain = three_link();
-        let mut arm = chain.clone();
-        arm.joints.truncate(2);
-        for joint in &mut arm.joints {
-            joint.body = crate::arm::Body::default();
-        }
-        let follows =
-            |coordinate, multiplier, offset| crate::arm::Coupling { coordinate, multiplier, offset };
-        let couplings = vec![follows(0, 1.0, 0.0), follows(1, 1.0, 0.0), follows(1, -0.5, 0.1)];
-        arm.linkage = Some(Box::new(crate::arm::Linkage { chain, couplings }));
+        let arm = two_of_three();
         let motion = Motion::Quintic { from: vec![0.0, 0.3], to: vec![1.5, 1.2], duration: 2.0 };
         let bounds = Feedforward::new(&arm, &Uncertainty::default(), &motion);
         let [torque, rate] = seen(&arm, &motion, 5_003);

@@ -218,3 +218,23 @@ fn origin<S: Scalar>(joint: &Joint, q: Position<S>, like: S) -> Vector<S> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::model::{mass_matrix, positions};
+    use super::inertia;
+    use crate::simulate::example::{three_link, two_of_three};
+
+    #[test]
+    fn inertia_is_the_mass_matrix_with_and_without_joints_that_follow_others() {
+        for arm in [three_link(), two_of_three()] {
+            let q: Vec<f64> = [0.3, -0.8, 1.1].into_iter().take(arm.dof()).collect();
+            let made = inertia(&arm, &positions(&arm, &q), 0.0);
+            let d = mass_matrix(&arm, &q);
+            assert_eq!((made.len(), d.len()), (arm.dof(), arm.dof()));
+            for (entry, exact) in made.iter().flatten().zip(d.iter().flatten()) {
+                assert!((entry - exact).abs() < 1e-13 * (1.0 + exact.abs()), "{entry} {exact}");
+            }
+        }
+    }
+}

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{Comparison, Scenario, simulate};
-use crate::arm::{Arm, Body, Joint, JointKind, Limits, Transform, Uncertainty};
+use crate::arm::{Arm, Body, Coupling, Joint, JointKind, Limits, Linkage, Transform, Uncertainty};
 use crate::bounds::{Bounds, Effort, certified, position_bound, recursion_rounding};
 use crate::check::{Control, GainSource, InitialError, Tuning};
 use crate::control::{Design, DesignProblem, design};
@@ -146,6 +146,20 @@ impl Example {
             scalar: crate::spec::ScalarSpec::F64,
         })
     }
+}
+
+/// The same chain, whose third joint turns half as far as the second, the other way.
+pub(crate) fn two_of_three() -> Arm {
+    let chain = three_link();
+    let mut arm = chain.clone();
+    arm.joints.truncate(2);
+    for joint in &mut arm.joints {
+        joint.body = Body::default();
+    }
+    let follows = |coordinate, multiplier, offset| Coupling { coordinate, multiplier, offset };
+    let couplings = vec![follows(0, 1.0, 0.0), follows(1, 1.0, 0.0), follows(1, -0.5, 0.1)];
+    arm.linkage = Some(Box::new(Linkage { chain, couplings }));
+    arm
 }
 
 /// The arm of the report's Table 1.
