@@ -8,6 +8,8 @@ use super::problem::Problem;
 use super::settling::settling;
 use crate::bounds::{down, six_digits_up};
 
+/// Part of the time by which a sample may be off the end of the motion and still be at it: rounding.
+const SAME: f64 = 1e-12;
 /// Most periods that are followed one by one.
 const MOST: f64 = 4e5;
 
@@ -20,7 +22,8 @@ pub struct Sampled {
     pub settle: f64,
     /// Bound by joint on |q_e| from `settle` on; `None` where the claim ends before.
     pub settled_error: Option<Vec<f64>>,
-    /// Bound by joint on |q_e| at the end of the motion.
+    /// Bound by joint on |q_e| at the end of the motion, also where that is between two samples; where the motion does not rest at its
+    /// end, at `valid_until`, and at any time of its repetitions.
     pub end_error: Vec<f64>,
     /// Bound by joint on |q̇_e| at the samples, rad/s or m/s.
     pub speed_error: Vec<f64>,
@@ -94,8 +97,11 @@ pub(super) fn follow(problem: &Problem, declared: Declared, settle: Option<f64>)
     while (funnel.index as f64) < last {
         let step = funnel.step().map_err(Open::Lost)?;
         claim.take(&step, &mut funnel)?;
+        claim.out.end_error = step.during;
     }
-    claim.out.end_error = funnel.set.hull()[..n].to_vec();
+    if !rests || (whole - periods).abs() <= SAME * whole {
+        claim.out.end_error = funnel.set.hull()[..n].to_vec();
+    }
     if rests {
         claim.rest(&mut funnel);
     } else if let Some(repetition) = repetition {

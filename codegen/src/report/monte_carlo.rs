@@ -61,7 +61,7 @@ fn notes(found: &MonteCarlo) -> String {
     let [settle, end, last] = found.times.map(|time| format!("{time:.3}"));
     let runs = |count: usize| if count == 1 { "1 run".to_string() } else { format!("{count} runs") };
     let mut out = format!(
-        "{} of {last} s, found and not proved. Reach: any time. Settled: from {settle} s on. End: at {end} s, the motion's end.\n",
+        "{} of {last} s, found and not proved. Reach: any time. Settled: from {settle} s on. End: at {end} s, the first sample from the motion's end on.\n",
         runs(found.runs)
     );
     let mut say = |count: usize, what: &str| {

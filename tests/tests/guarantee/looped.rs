@@ -35,6 +35,9 @@ pub struct Loop {
     /// Periods of a run, and those until the motion ends.
     pub periods: usize,
     pub end: usize,
+    /// Time for which the error at the end is promised, s, and q_d then.
+    finish: f64,
+    last: Row,
     pub substeps: usize,
     pub desired: Vec<Desired>,
     /// q_d after each Runge–Kutta step, a period's steps one after the other.
@@ -106,6 +109,10 @@ impl Loop {
         let (n, period) = (generation.given().dof(), design.period);
         let end = (motion.duration() / period - 1e-9).ceil() as usize;
         let periods = end + if motion.rests() { (rest / period).ceil() as usize } else { 0 };
+        // A motion that does not rest at its end is followed to the last sample within it.
+        let until = promised.valid_until.unwrap_or(f64::INFINITY);
+        let finish = if motion.rests() { motion.duration() } else { motion.duration().min(until) };
+        let last = row(&motion.at(finish).q);
         let substeps = (period / LONGEST - 1e-9).ceil().max(1.0) as usize;
         let target = |t: f64| {
             let at = motion.at(t);
@@ -142,6 +149,8 @@ impl Loop {
             period,
             periods,
             end,
+            finish,
+            last,
             substeps,
             desired,
             between,
@@ -183,13 +192,11 @@ impl Loop {
         let h = self.period / self.substeps as f64;
         for k in 0..self.periods {
             let torque = self.pushed(&mut found, k, &q, &qd, attack);
+            self.look_at_end(&mut found, k, plant, [q, qd], &torque);
             for j in 0..self.substeps {
                 plant.step(&mut q, &mut qd, &torque, h);
                 let t = k as f64 * self.period + (j + 1) as f64 * h;
                 self.look(&mut found, k + 1, t, &self.between[k * self.substeps + j], &q);
-            }
-            if k + 1 == self.end {
-                self.look_at_end(&mut found, &q);
             }
         }
         found
@@ -250,9 +257,19 @@ impl Loop {
         }
     }
 
-    fn look_at_end(&self, found: &mut Found, q: &Row) {
+    /// Compares the error at the end with its bound where that lies in period `k`, which starts in this state.
+    fn look_at_end(&self, found: &mut Found, k: usize, plant: &Plant, state: [Row; 2], torque: &Row) {
+        let part = self.finish - k as f64 * self.period;
+        let hair = 1e-9 * self.period;
+        if !(hair < part && part <= self.period + hair) {
+            return;
+        }
+        let [mut q, mut qd] = state;
+        for _ in 0..self.substeps {
+            plant.step(&mut q, &mut qd, torque, part / self.substeps as f64);
+        }
         for i in 0..self.n {
-            let error = (q[i] - self.desired[self.end].q[i]).abs();
+            let error = (q[i] - self.last[i]).abs();
             found.end[i] = error;
             let bound = self.promised.end_error[i];
             if error.is_nan() || error > bound + OWN {

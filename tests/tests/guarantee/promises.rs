@@ -88,6 +88,22 @@ fn a_lag_that_repeats_itself_is_inside_for_as_long_as_is_claimed() {
     assert_eq!(found.broken, None);
 }
 
+/// The error at the end is that of the end, and not that of the next sample, when much of it has gone.
+#[test]
+fn a_motion_that_ends_between_two_samples() {
+    for (duration, period) in [(0.8004, 8e-3), (0.8039, 8e-3), (0.8001, 1e-3)] {
+        let case = Case { name: "threedof ends between", period, duration, initial: 0.0, ..PLAIN };
+        let lower = |spec: &mut Value| {
+            for gains in ["W", "Pqq", "Omega"] {
+                for gain in spec["control"][gains].as_array_mut().unwrap() {
+                    *gain = json!(0.4 * gain.as_f64().unwrap());
+                }
+            }
+        };
+        no_run_leaves(&case, lower, &at_rest(0.0), 16);
+    }
+}
+
 #[test]
 fn motions_with_kinks_are_followed_or_refused_with_a_reason() {
     let waypoints = json!({ "waypoints": { "times": [0.0, 0.7003, 1.5, 2.2507], "positions": [
