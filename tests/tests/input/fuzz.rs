@@ -14,7 +14,7 @@ use gramforge::{Error, Generation, load};
 use serde_json::Value;
 
 /// Inputs of each kind where the environment does not say.
-const INPUTS: usize = 500;
+const INPUTS: usize = 1000;
 /// The longest that one input may take.
 const LONGEST: Duration = Duration::from_secs(20);
 /// The most memory that the whole process may have had, bytes.
